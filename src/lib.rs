@@ -59,6 +59,7 @@ pub mod survey;
 pub mod tables;
 pub mod target_args;
 pub mod together;
+pub mod toot;
 pub mod trial;
 pub mod tune;
 pub mod unlike;

@@ -1,8 +1,11 @@
-//! Pictures in a terminal, as it can show them: by kitty's protocol or iTerm2's where it has one,
-//! else as half blocks in colours.
+//! Pictures in a terminal, as it can show them: by kitty's protocol, iTerm2's or as sixels where
+//! it has one of them, else as half blocks in colours.
+
+mod asked;
+mod sixel;
 
 use crate::failure::Outcome;
-use crate::picture::{FileFormat, Picture, png};
+use crate::picture::{FileFormat, Picture};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use console::Term;
@@ -16,6 +19,8 @@ pub enum Means {
     Kitty,
     /// iTerm2's inline images.
     Iterm,
+    /// Sixels, as xterm, foot, mlterm, Windows Terminal and others show them.
+    Sixel,
     /// Half blocks, two pixels above each other in one character, in 24-bit colours.
     Blocks,
     /// The same in the 256 colours that xterm has.
@@ -31,12 +36,33 @@ const CHUNK: usize = 4096;
 /// Columns that a picture of so many pixels is enlarged to at least, by whole factors.
 const ENLARGED: u32 = 256;
 
+/// What says by its name which of them is used, whatever the terminal can.
+const FORCED: &str = "SLOWLIGHT_SHOW";
+
 /// What standard output can show; none where it is no terminal, or colours are not wanted.
+/// `SLOWLIGHT_SHOW=sixel`, `kitty`, `iterm` or `blocks` says it for what is not asked.
 pub fn means() -> Option<Means> {
+    let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
+    if let Some(forced) = variable(FORCED).and_then(|name| named(&name)) {
+        return Some(forced);
+    }
     if !std::io::stdout().is_terminal() {
         return None;
     }
-    means_of(&|name| std::env::var(name).ok().filter(|value| !value.is_empty()))
+    match means_of(&variable) {
+        Some(Means::Blocks | Means::Blocks256) if asked::has_sixel() => Some(Means::Sixel),
+        means => means,
+    }
+}
+
+fn named(name: &str) -> Option<Means> {
+    Some(match name {
+        "kitty" => Means::Kitty,
+        "iterm" => Means::Iterm,
+        "sixel" => Means::Sixel,
+        "blocks" => Means::Blocks,
+        _ => return None,
+    })
 }
 
 /// The same by what the environment says.
@@ -77,9 +103,10 @@ pub fn room() -> (u32, u32) {
 /// Where it cannot be made a PNG.
 pub fn text(picture: &Picture, means: Means, room: (u32, Option<u32>)) -> Outcome<String> {
     Ok(match means {
-        Means::Kitty => kitty(&enlarged(picture)?),
+        Means::Kitty => kitty(&enlarged(picture).encode(FileFormat::Png)?),
+        Means::Sixel => sixel::sixel(&enlarged(picture)) + "\n",
         Means::Iterm => {
-            let file = enlarged(picture)?;
+            let file = enlarged(picture).encode(FileFormat::Png)?;
             let (size, data) = (file.len(), STANDARD.encode(file));
             format!("\x1b]1337;File=inline=1;size={size}:{data}\x07\n")
         }
@@ -89,11 +116,8 @@ pub fn text(picture: &Picture, means: Means, room: (u32, Option<u32>)) -> Outcom
 }
 
 /// A small picture by a whole factor larger, whose pixels stay squares.
-fn enlarged(picture: &Picture) -> Outcome<Vec<u8>> {
+fn enlarged(picture: &Picture) -> Picture {
     let factor = (ENLARGED / picture.width.max(1)).clamp(1, 8);
-    if factor == 1 {
-        return picture.encode(FileFormat::Png);
-    }
     let wide = picture.width.max(1) as usize;
     let (factor, mut inks) = (factor as usize, Vec::new());
     for row in picture.inks.chunks(wide) {
@@ -103,12 +127,12 @@ fn enlarged(picture: &Picture) -> Outcome<Vec<u8>> {
             .collect();
         inks.extend(std::iter::repeat_n(row, factor).flatten());
     }
-    let colours = picture.palette.iter().flatten().copied().collect();
-    let (width, height) = (
-        picture.width * factor as u32,
-        picture.height * factor as u32,
-    );
-    png(width, height, Some(colours), &inks)
+    Picture {
+        width: picture.width * factor as u32,
+        height: picture.height * factor as u32,
+        palette: picture.palette.clone(),
+        inks,
+    }
 }
 
 fn kitty(file: &[u8]) -> String {

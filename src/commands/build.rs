@@ -12,7 +12,7 @@ use crate::need::{Need, need_beside};
 use crate::scene::{Precision, Scene, SceneArgs};
 use crate::target_args::{self, Os, ScreenArgs, Style};
 use crate::trial::{self, mode_json};
-use crate::{files, inks, say, say_json, vcs, worst};
+use crate::{files, inks, say, say_json, toot, vcs, worst};
 use clap::ValueEnum;
 use serde_json::json;
 use slowlight_compiler::analysis::rate::rates;
@@ -90,8 +90,8 @@ enum Stage {
 
 /// Builds.
 pub fn run(args: &Args) -> Outcome<()> {
-    let scene = Scene::load(&args.scene)?;
-    let scene = if args.still { scene } else { scene.moving() };
+    let scene = Scene::load(&args.screen.scene_args(&args.scene))?;
+    let scene = args.screen.moving(scene, args.still);
     if let Some(stage) = args.emit {
         return say(&emit(args, &scene, stage)?);
     }
@@ -176,7 +176,7 @@ pub fn run(args: &Args) -> Outcome<()> {
         }
         return say_json(&said);
     }
-    say(&written.text())?;
+    say(&(written.text() + &toot::said(&plan, &text, forecast.cycles().map(seconds))))?;
     say(&match &forecast {
         Forecast::Whole(cycles) => {
             let each = if plan.graph.is_moving() {

@@ -87,7 +87,7 @@ fn once(args: &Args) -> Outcome<()> {
     let others: Vec<Reference> = (args.against.iter())
         .map(|path| Reference::read(path))
         .collect::<Outcome<_>>()?;
-    let scene = Scene::load(&args.scene)?;
+    let scene = Scene::load(&args.screen.scene_args(&args.scene))?;
     scene.warn();
     let (plan, set, loaded) = prepare(args, &scene)?;
     inks::warn(&scene, &plan)?;

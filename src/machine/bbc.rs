@@ -30,7 +30,9 @@ pub fn load(files: &[File], config: Config) -> Outcome<Loaded> {
     } else {
         let tokens = tokenise(&file.as_text(), dialect).map_err(refuse)?;
         machine.load_tokenised(&tokens).map_err(refuse)?;
-        let stem = file.name.rsplit_once('.').map_or("", |(stem, _)| stem);
+        let stem = file.name.strip_suffix(".toot.txt");
+        let stem = stem.or_else(|| Some(file.name.rsplit_once('.')?.0));
+        let stem = stem.unwrap_or_default();
         let disc = match dialect {
             Dialect::Micro => dfs::bootable(stem, &tokens, page),
             _ => None,

@@ -6,6 +6,7 @@ mod heap;
 mod items;
 mod lowered;
 mod passes;
+mod post;
 mod read;
 mod sampling;
 mod values;
@@ -25,6 +26,7 @@ use crate::interrupt;
 use crate::machine::Machine;
 use crate::progress::Waiting;
 use crate::scene::Scene;
+use crate::toot;
 use crate::ways::WayArgs;
 use clap::Args;
 use slowlight_compiler::plan::Goal;
@@ -50,9 +52,9 @@ pub struct ScreenArgs {
     /// makes a program for the processor's ROM [default: native]
     #[arg(long, value_name = "OS")]
     pub os: Option<Os>,
-    /// How BASIC is written: `fast`, or `listing`, to be read; for the 6502 `listing` writes a
-    /// file more: its memory, its routines, and the code below the scene's lines, with its
-    /// cycles [default: fast]
+    /// How BASIC is written: `fast`, `listing`, to be read, or `toot`, to be posted; for the
+    /// 6502 `listing` writes a file more: its memory, its routines, and the code below the
+    /// scene's lines, with its cycles [default: fast]
     #[arg(long, value_name = "STYLE")]
     pub style: Option<Style>,
     /// How reals are held, where the machine has several ways (see `slowlight targets`)
@@ -133,7 +135,8 @@ impl ScreenArgs {
     /// The plan that spends as little memory on speed as was asked for, or as it can.
     fn thrifty(&self, plan: PlannedScene) -> PlannedScene {
         let last = plan.thrifts().saturating_sub(1);
-        let step = usize::from(self.thrift.unwrap_or(0)).min(last);
+        let usual = if self.is_toot() { toot::THRIFT } else { 0 };
+        let step = usize::from(self.thrift.unwrap_or(usual)).min(last);
         match step {
             0 => plan,
             step => (plan.thriftier(step))
@@ -234,6 +237,7 @@ impl ScreenArgs {
         }
         match self.os {
             Some(Os::Jack) => fit::fit_rom(plan, self.machine(target), &name),
+            _ if self.is_toot() => Ok(toot::shortest(plan)),
             _ => fit::with_disc(plan),
         }
     }
@@ -297,6 +301,7 @@ impl ScreenArgs {
             let message = format!("--page is the BBC Micro's; {} has none", target.name);
             return Err(Failure::Usage(message));
         }
+        self.check_toot(target)?;
         self.check_columns(target)?;
         let (_, height) = scene.size();
         let block = self.block.unwrap_or((1, 1));
@@ -326,6 +331,7 @@ impl ScreenArgs {
         let mut plan = planned.map_err(|said| scene.wrong(said))?;
         of_columns(scene, &plan)?;
         plan.listing = basic && self.style == Some(Style::Listing);
+        plan.toot = self.is_toot();
         plan.page = self.page;
         plan.undocumented = self.undocumented;
         plan.statics = self.os == Some(Os::Jack);

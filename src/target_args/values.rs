@@ -50,6 +50,8 @@ pub enum Style {
     Fast,
     /// To be read: in BASIC the scene's names, a remark for each of its items
     Listing,
+    /// To be posted to the BBC Micro Bot: on bbc:micro as few characters as it goes
+    Toot,
 }
 
 /// Rows of a picture as rows of blocks.

@@ -89,7 +89,13 @@ mod peers_jsbeeb;
 #[cfg(feature = "peers")]
 mod peers_live;
 #[cfg(feature = "peers")]
+mod peers_neovim;
+#[cfg(feature = "peers")]
+mod peers_sixel;
+#[cfg(feature = "peers")]
 mod peers_stella;
+#[cfg(feature = "peers")]
+mod peers_toots;
 mod planning;
 mod precise;
 mod predicted;
@@ -106,6 +112,7 @@ mod started;
 mod stress;
 mod survey_parts;
 mod syntaxes;
+mod toots;
 mod torus;
 mod tune;
 mod tune_effort;

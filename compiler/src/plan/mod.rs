@@ -123,6 +123,8 @@ pub struct Plan {
     /// Whether to write it for reading rather than for speed, where the target
     /// knows the difference; the values are the same.
     pub listing: bool,
+    /// Whether to write it in as few characters as it goes, to be posted.
+    pub toot: bool,
     /// Whether the values that are met most are kept at fixed addresses, where the
     /// machine finds them faster there (the Hack computer's processor, in Jack).
     pub statics: bool,
@@ -192,7 +194,7 @@ impl Plan {
     pub fn is_written_as(&self, other: &Plan) -> bool {
         let style = |plan: &Plan| {
             let short = (plan.tight, plan.lean, plan.brief, plan.scant, plan.copies);
-            (short, plan.listing, plan.statics, plan.page)
+            (short, plan.listing, plan.toot, plan.statics, plan.page)
         };
         let whole = (self.mode, self.rows) == (other.mode, other.rows);
         whole && style(self) == style(other) && self.tree == other.tree && self.graph == other.graph
@@ -389,9 +391,7 @@ impl Plan {
     /// The names of the parts of the runtime that the routines need, closed
     /// over what those need; in the runtime's order.
     pub fn parts(&self) -> Vec<&'static slowlight_routine::Part> {
-        let names = self
-            .routines
-            .iter()
+        let names = (self.routines.iter())
             .chain([&self.gather])
             .flatten()
             .flat_map(|r| r.needs.iter().copied());

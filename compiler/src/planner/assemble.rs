@@ -75,6 +75,7 @@ pub(super) fn assemble(
         plot: goal.plot,
         tight: false,
         listing: false,
+        toot: false,
         statics: false,
         items: Vec::new(),
         drawn: None,

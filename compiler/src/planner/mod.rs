@@ -10,6 +10,7 @@ pub(crate) mod context;
 #[cfg(test)]
 mod context_tests;
 pub(crate) mod made;
+pub(crate) mod observed;
 pub(crate) mod outlined;
 pub mod pass_manager;
 pub mod pipeline;

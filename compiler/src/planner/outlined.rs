@@ -113,7 +113,7 @@ impl PlannedScene {
         let mut plan = assemble(scheduled, params, self.target, &goal, looks)?;
         plan.cut = self.cut;
         plan.items = self.items.clone();
-        (plan.listing, plan.page) = (self.listing, self.page);
+        (plan.listing, plan.toot, plan.page) = (self.listing, self.toot, self.page);
         plan.undocumented = self.undocumented;
         plan.statics = self.statics;
         Ok(PlannedScene {

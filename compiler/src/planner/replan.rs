@@ -133,7 +133,7 @@ impl PlannedScene {
         plan.hold();
         plan.items = self.items.clone();
         plan.drawn = self.drawn;
-        (plan.listing, plan.page) = (self.listing, self.page);
+        (plan.listing, plan.toot, plan.page) = (self.listing, self.toot, self.page);
         plan.undocumented = self.undocumented;
         plan.statics = self.statics;
         plan.lean = self.lean && self.target.lean == Lean::Calls;

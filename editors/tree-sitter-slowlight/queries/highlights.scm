@@ -6,7 +6,6 @@
 (string) @string
 (character) @character
 (colour) @string.special
-(ink) @constant
 (integer) @number
 (real) @number
 (angle) @number
@@ -31,6 +30,8 @@
 
 (type) @type
 (type (identifier) @type)
+(ink) @constant
+(ink (identifier) @constant)
 
 (param name: (identifier) @variable)
 (const name: (identifier) @constant)

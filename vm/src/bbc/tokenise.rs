@@ -57,10 +57,14 @@ pub fn tokenise(text: &str, _dialect: Dialect) -> Result<Vec<u8>, Fault> {
             .and_then(|n: usize| u16::try_from(n).ok())
             .ok_or_else(|| fault(Some(row), "line numbers go from 0 to 32767"))?;
         last = usize::from(number);
-        if let Some(odd) = body.chars().find(|c| (*c as u32) > 255 || (*c as u32) < 32) {
+        // As in posts to a bot, what Latin-1 has no letter for may be its number and 256.
+        let is_odd = |c: &char| *c > '\u{1ff}' || *c < ' ' || *c == '\u{10d}';
+        if let Some(odd) = body.chars().find(is_odd) {
             return Err(fault(
                 Some(row),
-                format!("BASIC's characters are Latin-1: {odd:?} is none of them"),
+                format!(
+                    "BASIC's characters are Latin-1, or 256 further on: {odd:?} is none of them"
+                ),
             ));
         }
         let latin: Vec<u8> = body.chars().map(|c| c as u32 as u8).collect();

@@ -32,6 +32,10 @@ pub struct Code<'p> {
     ways: BTreeMap<NodeId, bool>,
     /// Loops of the scene around what is written.
     pub loops: u32,
+    /// FOR loops that are left by a jump, still open: the NEXT of one around them, which says
+    /// its name, ends them as well. And loops by GOTO around what is written, which do not.
+    pub open: u32,
+    pub gotos: u32,
     /// What loops count by themselves.
     pub counted: Counted,
     pub labels: Labels,
@@ -55,8 +59,13 @@ impl<'p> Code<'p> {
             lines: Lines::default(),
             rare: Lines::default(),
             seldom: Vec::new(),
-            ways: plan.seldom(),
+            ways: match plan.toot {
+                true => BTreeMap::new(),
+                false => plan.seldom(),
+            },
             loops: 0,
+            open: 0,
+            gotos: 0,
             counted: Counted::default(),
             labels: Labels::default(),
             ends: None,

@@ -3,8 +3,8 @@
 use super::Style;
 use super::names::Names;
 use super::pieces::{depth, short_length};
-use super::text::filled;
 use super::text::{Fast, Text};
+use super::text::{filled, turned};
 use crate::ir::graph::*;
 use crate::plan::Plan;
 use rustc_hash::FxHashMap;
@@ -113,6 +113,7 @@ impl<'p> Expressions<'p> {
             // The least int has no literal of its own.
             Value::Int(i32::MIN) => "-2147483647-1".to_owned(),
             Value::Int(n) => n.to_string(),
+            Value::Real(x) if self.style == Style::Toot => literal(x),
             Value::Real(x) => {
                 let text = literal(x);
                 let size = text.trim_start_matches('-');
@@ -159,6 +160,11 @@ impl<'p> Expressions<'p> {
         let guard = self.few_tests(id, routine.name, args);
         let operands: Vec<Text> = args.iter().map(|arg| self.read(*arg)).collect();
         let form = number_last(routine.form, op, &operands);
+        if self.style == Style::Toot
+            && let Some(text) = turned(form, &operands)
+        {
+            return text;
+        }
         let text = filled(form, &operands, false);
         let short = match &guard {
             Some(guard) => guard.form,
@@ -205,6 +211,9 @@ impl<'p> Expressions<'p> {
         let Some(t) = self.plan.graph.tables.get(table.0 as usize) else {
             return Text::operand("0");
         };
+        if let Some(text) = self.in_string(table, [column, row], inside) {
+            return text;
+        }
         let name = self.names.tables[table.0 as usize].clone();
         let (width, height) = (t.width, t.height);
         let mut indices = Vec::new();
@@ -229,7 +238,7 @@ impl<'p> Expressions<'p> {
     }
 
     /// An index, clamped unless its range proves it inside.
-    fn index(&mut self, id: NodeId, range: Range, length: u32) -> Text {
+    pub(super) fn index(&mut self, id: NodeId, range: Range, length: u32) -> Text {
         let text = self.read(id);
         let last = f64::from(length - 1);
         if range.within(0.0, last) {

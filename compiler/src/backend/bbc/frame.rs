@@ -25,12 +25,13 @@ use super::ways;
 use crate::ir::graph::ParamId;
 use crate::plan::{Copies, Plan};
 use crate::source::Span;
-use behind::{called, called_rarely, functions, procedures, reports, setup};
+pub(super) use behind::{called, functions, procedures};
+use behind::{called_rarely, reports, setup};
 
 /// How often a row's and a pixel's statements are carried out, roughly: for
 /// the weights of names only.
 const ROW: u64 = 300;
-const PIXEL: u64 = 100_000;
+pub(super) const PIXEL: u64 = 100_000;
 
 /// The whole program.
 pub fn program(plan: &Plan) -> Lines {
@@ -154,12 +155,22 @@ fn parameters(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str) {
     ));
 }
 
-fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Option<&Spread>) {
+pub(super) fn picture(
+    plan: &Plan,
+    code: &mut Code<'_>,
+    first: &str,
+    last: &str,
+    spread: Option<&Spread>,
+) {
     // MODE must stand outside procedures, and after nothing but small tables.
-    code.statement("PROCsetup");
+    if !plan.toot {
+        code.statement("PROCsetup");
+    }
     if plan.plot {
         code.statement(format!("MODE {}", plan.mode.name));
-        code.statement("VDU 23,1,0;0;0;0;");
+        if !plan.toot {
+            code.statement("VDU 23,1,0;0;0;0;");
+        }
         for (ink, rgb) in plan.graph.image.palette.iter().enumerate() {
             if let Some(text) = screen::colour(plan, ink, *rgb) {
                 code.statement(text);
@@ -199,7 +210,7 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         refined.row(code);
     }
     let pokes = poke.is_some() || passes.as_ref().is_some_and(Passes::pokes);
-    if plan.plot && !pokes {
+    if plan.plot && !pokes && !plan.toot {
         code.statement(format!("R%={}", screen::y_expression(plan)));
     }
     let mut apart = Vec::new();
@@ -252,9 +263,14 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
     }
     code.block(&plan.tree.pixel);
     code.known = None;
-    let ink = code.values.read(plan.graph.ink);
-    code.assign("I%", &ink);
-    if let Some(poke) = &poke {
+    let posted = plan.toot && plan.plot && spread.is_none() && refined.is_none();
+    if !posted {
+        let ink = code.values.read(plan.graph.ink);
+        code.assign("I%", &ink);
+    }
+    if posted {
+        screen::draw(plan, code);
+    } else if let Some(poke) = &poke {
         poke.gather(code);
     } else if let Some(row) = passes.as_ref().filter(|row| row.pokes()) {
         row.put(code);
@@ -273,7 +289,8 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         refined.send(code);
     }
     ramp::step(plan, code);
-    code.line("NEXT");
+    // It ends the loops that were left inside.
+    code.line(if code.open > 0 { "NEXT X%" } else { "NEXT" });
     if let (Some(row), Some(_)) = (&passes, &segments) {
         code.lines.weight = SEGMENT;
         row.after_run(code);
@@ -314,6 +331,10 @@ fn picture(plan: &Plan, code: &mut Code<'_>, first: &str, last: &str, spread: Op
         }
         None => {
             reports(plan, code);
+            if plan.toot && plan.plot {
+                // No prompt and no cursor in the picture.
+                code.statement("VDU 5,21");
+            }
             code.line("END");
         }
     }

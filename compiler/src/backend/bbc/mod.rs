@@ -23,6 +23,7 @@
 //! - `poke`: pixels put into the Micro's memory; `passes`: rows drawn every nth column at a time;
 //! - `ramp`: ints that are stepped from column to column; `reads`: what a pixel reads;
 //! - `spread`: error diffusion; `thread`, `tail`, `dead`: fewer jumps and flags; `short`: short names and lines, for speed and for size;
+//! - `toot`: a program in as few characters as it goes, in the form of a post; `strings`: its tables;
 //! - `pieces`: statements cut into names and words; `terse`: the same said shorter.
 
 mod asked;
@@ -49,6 +50,7 @@ mod short;
 mod spread;
 mod starts;
 mod steps;
+mod strings;
 mod tables;
 mod tail;
 mod terse;
@@ -57,6 +59,7 @@ mod test_line;
 mod tests;
 mod text;
 mod thread;
+mod toot;
 mod turns;
 mod version;
 mod ways;
@@ -82,11 +85,14 @@ enum Style {
     Lean,
     /// To be small: the same, and constants where they are read.
     Small,
+    /// To be posted: as few characters as it goes ([`toot`]).
+    Toot,
 }
 
 impl Style {
     fn of(plan: &Plan) -> Style {
         match plan {
+            Plan { toot: true, .. } => Style::Toot,
             Plan { tight: true, .. } => Style::Small,
             Plan { lean: true, .. } => Style::Lean,
             Plan { listing: true, .. } => Style::Listing,
@@ -96,6 +102,9 @@ impl Style {
 }
 
 pub(super) fn emit(plan: &Plan) -> Vec<Document> {
+    if plan.toot {
+        return toot::emit(plan);
+    }
     let program = frame::program(plan);
     let later = program.later();
     let (text, lines) = program.finish();

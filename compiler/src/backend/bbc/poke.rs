@@ -50,7 +50,7 @@ pub fn pixels_in_byte(plan: &Plan, style: Style) -> Option<u32> {
     let fits = plan.plot
         && pixels > 1
         && plan.graph.image.block == (1, 1)
-        && style != Style::Listing
+        && !matches!(style, Style::Listing | Style::Toot)
         && plan.computed_columns() == plan.columns
         && whole(i64::from(left))
         && whole(i64::from(last) + 1 - i64::from(first));

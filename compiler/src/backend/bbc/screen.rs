@@ -133,3 +133,23 @@ pub fn y_expression(plan: &Plan) -> String {
     // The middle of the row, since units are no whole part of it.
     format!("(512+1024*({})) DIV {height}", linear(bottom, -block, "Y%"))
 }
+
+/// Draws the pixel in its ink, whatever that is: the screen is ink 0 at first, but to ask takes
+/// more characters. With two inks points are drawn in the other as they are.
+pub fn draw(plan: &Plan, code: &mut Code<'_>) {
+    let ink = code.values.read(plan.graph.ink).text;
+    let point = point(plan);
+    match plan.mode.inks {
+        2 => {
+            let shown = ink
+                .strip_prefix("-(")
+                .and_then(|rest| rest.strip_suffix(')'));
+            let shown = shown.filter(|inner| !inner.contains(['(', ')']));
+            code.line(format!("IF {} THEN {point}", shown.unwrap_or(&ink)));
+        }
+        _ => {
+            code.statement(format!("GCOL 0,{ink}"));
+            code.statement(point);
+        }
+    }
+}

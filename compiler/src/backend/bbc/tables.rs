@@ -5,6 +5,7 @@
 //! they are, then the others are worked out ([`Recipe`]).
 
 use super::code::Code;
+use super::strings;
 use crate::ir::graph::{Table, TableId};
 use crate::plan::Plan;
 use crate::plan::table_init::{From, Recipe};
@@ -27,6 +28,9 @@ pub(super) struct Group<'p> {
 pub(super) fn groups(plan: &Plan) -> Vec<Group<'_>> {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for (k, table) in plan.graph.tables.iter().enumerate() {
+        if strings::string(plan, TableId(k as u32)).is_some() {
+            continue;
+        }
         let (id, size) = (TableId(k as u32), (table.width, table.height));
         let recipe = plan.table(id).and_then(|made| made.recipe);
         let seed: &[i32] = if recipe.is_some() { &table.seed } else { &[] };
@@ -233,7 +237,7 @@ fn term(more: f64) -> String {
 /// fractions of a power of two are written as whole numbers, which are shorter
 /// and, divided again, the same bits.
 fn scale(plan: &Plan, table: &Table) -> u32 {
-    if !plan.tight || table.ty != Type::Real {
+    if !plan.tight && !plan.toot || table.ty != Type::Real {
         return 1;
     }
     let whole = |scale: &u32| {
@@ -248,7 +252,7 @@ fn scale(plan: &Plan, table: &Table) -> u32 {
 
 /// What the arrays are read from.
 pub fn data(plan: &Plan, code: &mut Code<'_>) {
-    let width = if plan.tight { 200 } else { 60 };
+    let width = if plan.tight || plan.toot { 200 } else { 60 };
     for group in groups(plan) {
         let cells = (group.size.0 * group.size.1) as usize;
         let read = |(id, _): &&(TableId, &Table)| recipe(plan, *id).is_none();

@@ -2,7 +2,7 @@
 
 use slowlight_routine::Form;
 use slowlight_runtime_bbc::level;
-use slowlight_runtime_bbc::level::OPERAND;
+use slowlight_runtime_bbc::level::{OPERAND, PRODUCT, SUM};
 
 /// The same value without a function call, where tests allow it.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,4 +95,41 @@ pub fn filled(form: Form, operands: &[Text], fast: bool) -> Text {
         text = text.replace(&hole, &operand);
     }
     Text::new(text, level)
+}
+
+/// A sum whose first part is negative the other way round, a negative sum part by part, and a
+/// product with a power of two below 1 as a quotient: the same bits, since rounding knows neither
+/// signs nor exponents.
+pub fn turned(form: Form, operands: &[Text]) -> Option<Text> {
+    let Form::Expression { template, .. } = form else {
+        return None;
+    };
+    match (template, operands) {
+        ("{0}+{1}", [first, second]) if first.level >= PRODUCT && second.level >= SUM => {
+            let rest = first.text.strip_prefix('-')?;
+            let whole = !second.text.starts_with('-');
+            whole.then(|| Text::new(format!("{}-{rest}", second.text), SUM))
+        }
+        ("{0}*{1}", [first, second]) => {
+            let (by, other) = match (power(&first.text), power(&second.text)) {
+                (_, Some(by)) => (by, first),
+                (Some(by), _) if second.level > PRODUCT => (by, second),
+                _ => return None,
+            };
+            Some(Text::new(format!("{}/{by}", other.at(PRODUCT)), PRODUCT))
+        }
+        ("-{0}", [sum]) if sum.level == SUM => {
+            let (first, second) = sum.text.split_once('+')?;
+            let plain = |text: &str| Text::operand(text).is_simple() && !text.starts_with('-');
+            let both = plain(first) && plain(second);
+            both.then(|| Text::new(format!("-{first}-{second}"), SUM))
+        }
+        _ => None,
+    }
+}
+
+/// What a number is one part of, if that is a power of two.
+fn power(text: &str) -> Option<u32> {
+    let x: f64 = text.parse().ok()?;
+    (1..=16).map(|k| 1 << k).find(|n| x * f64::from(*n) == 1.0)
 }

@@ -5,10 +5,17 @@ use super::code::Code;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::plan::Plan;
+use crate::source::Span;
 use slowlight_routine::{Op, Value};
 
 /// About how many turns a loop takes, for the weights of names only.
 const TURNS: u64 = 2;
+
+/// How many loops may be left open.
+const OPEN: u32 = 5;
+
+/// What makes the next turn ready is written behind a test up to this length.
+const NEXT: usize = 200;
 
 /// A carried int that counts the turns of its loop.
 struct Counter {
@@ -44,7 +51,7 @@ fn counter(plan: &Plan, turns: &Turns) -> Option<Counter> {
                 of: turns.of,
                 index,
             };
-        let fits = first.checked_add(of.max as i32).is_some();
+        let fits = of.max < i32::MAX as u32 && first.checked_add(of.max as i32).is_some();
         let counts = own && fits && graph.constant(by) == Some(Value::Int(1));
         counts.then(|| {
             let reads = |block: &Block, id| reads(graph, block, id);
@@ -101,7 +108,7 @@ impl Code<'_> {
         let Some(of) = plan.graph.loops.get(turns.of.0 as usize) else {
             return;
         };
-        let (most, span) = (of.max as i32 - 1, Some(of.span));
+        let (most, span) = (of.max.min(i32::MAX as u32) as i32 - 1, Some(of.span));
         let turn = self.values.names.unique("turn", "%");
         // Its variable where that is asked for where the loop is left, and what sets that and
         // what it is next there.
@@ -128,28 +135,44 @@ impl Code<'_> {
                 (counter.first, counter.first + most)
             }
             (None, Style::Listing) => (0, most),
+            (None, Style::Toot) => (1, most + 1),
             // Fewer digits for what leaves: it is past the last turn.
             _ => (-most, 0),
         };
         self.block(&turns.start);
+        if self.values.style == Style::Toot && of.max == u32::MAX {
+            return self.until_left(turns, span);
+        }
         let (leave, end) = (self.labels.next(), self.labels.next());
         self.lines
             .line(format!("FOR {turn}={first} TO {last}"), span);
         self.loops += 1;
+        let open = self.open;
         self.often(&turns.body, TURNS);
         self.loops -= 1;
         let ends = !turns.always(&plan.graph);
         if ends {
             // The machine has room for ten loops: one that is left must end as well.
             let fails = self.values.condition(turns.again, false);
-            let out = format!(
-                "IF {fails} THEN {keeps}{turn}={}:NEXT {turn}:GOTO {leave}",
-                last + 1
-            );
+            let closed = format!("{turn}={}:NEXT {turn}:", last + 1);
+            let closed = match self.may_stay_open() {
+                true => "",
+                false => closed.as_str(),
+            };
+            let out = match (keeps.as_str(), closed) {
+                ("", "") => format!("IF {fails} THEN {leave}"),
+                _ => format!("IF {fails} THEN {keeps}{closed}GOTO {leave}"),
+            };
             self.lines.line(out, span);
         }
         self.block(&turns.next);
-        self.lines.line(format!("NEXT {turn}"), span);
+        match self.open > open || self.values.style != Style::Toot {
+            true => self.lines.line(format!("NEXT {turn}"), span),
+            false => self.lines.line("NEXT", span),
+        }
+        if ends && self.may_stay_open() {
+            self.open += 1;
+        }
         self.block(&turns.otherwise);
         if let Some((place, own)) = &kept {
             self.values.names.rename(*place, own);
@@ -163,5 +186,46 @@ impl Code<'_> {
             self.lines.append(done);
         }
         self.lines.place(end);
+    }
+
+    /// Whether a FOR loop that is left may stay open: what is around it ends it, and there is
+    /// room for ten.
+    fn may_stay_open(&self) -> bool {
+        let alone = self.gotos == 0 && self.values.plan.tree.subroutines.is_empty();
+        self.values.style == Style::Toot && alone && self.open < OPEN
+    }
+
+    /// A loop that never comes to its limit, whose first turn is made ready.
+    fn until_left(&mut self, turns: &Turns, span: Option<Span>) {
+        let top = self.labels.next();
+        self.lines.place(top);
+        self.gotos += 1;
+        self.often(&turns.body, TURNS);
+        self.gotos -= 1;
+        if turns.always(&self.values.plan.graph) {
+            self.block(&turns.next);
+            self.lines.line(format!("GOTO {top}"), span);
+            return;
+        }
+        let holds = self.values.condition(turns.again, true);
+        let fails = self.values.condition(turns.again, false);
+        let next = self.apart(&turns.next);
+        match next.in_one_line().filter(|text| text.len() < NEXT) {
+            Some(text) if text.is_empty() => {
+                self.lines.line(format!("IF {holds} THEN {top}"), span);
+            }
+            Some(text) => {
+                let out = format!("IF {holds} THEN {text}:GOTO {top}");
+                self.lines.line(out, span);
+            }
+            None => {
+                let leave = self.labels.next();
+                self.lines.line(format!("IF {fails} THEN {leave}"), span);
+                self.lines.append(next);
+                self.lines.line(format!("GOTO {top}"), span);
+                self.lines.place(leave);
+            }
+        }
+        self.block(&turns.done);
     }
 }

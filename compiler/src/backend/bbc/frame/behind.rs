@@ -37,7 +37,7 @@ pub(super) fn reports(plan: &Plan, code: &mut Code<'_>) {
 
 /// The parts that the program calls or reads, as far as it is written, and those that
 /// they need: an expression may have taken a function's place.
-pub(super) fn called(plan: &Plan, code: &Code<'_>) -> Vec<&'static Part> {
+pub fn called(plan: &Plan, code: &Code<'_>) -> Vec<&'static Part> {
     let has = |text: &str, part: &Part| match is_first(part) {
         true => pieces(text).contains(&Piece::Name(part.name)),
         false => text.contains(&format!("{}(", part.name)),
@@ -107,7 +107,7 @@ pub(super) fn setup(plan: &Plan, code: &mut Code<'_>, parts: &[&Part], first: &s
 }
 
 /// What is called from several places.
-pub(super) fn procedures(plan: &Plan, code: &mut Code<'_>) {
+pub fn procedures(plan: &Plan, code: &mut Code<'_>) {
     code.ends = code.ends_called.take();
     for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
         let id = SubroutineId(k as u32);
@@ -125,7 +125,7 @@ pub(super) fn procedures(plan: &Plan, code: &mut Code<'_>) {
     code.ends = None;
 }
 
-pub(super) fn functions(code: &mut Code<'_>, parts: &[&Part]) {
+pub fn functions(code: &mut Code<'_>, parts: &[&Part]) {
     let mut whole = |text: &str| text.lines().for_each(|l| code.line(l));
     for part in parts {
         if let Source::Text(text) = part.source

@@ -28,7 +28,7 @@ impl std::fmt::Display for Label {
 }
 
 /// Makes labels, each once.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Labels(u32);
 
 impl Labels {
