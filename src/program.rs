@@ -30,6 +30,14 @@ pub fn read(dir: &Path, scene: &str, machine: Machine) -> Outcome<Vec<File>> {
     if paths.len() > 1 && !machine.many_sources() {
         paths.retain(|p| p.file_stem().is_some_and(|s| s == scene));
     }
+    if paths.is_empty() && matches!(machine, Machine::Bbc(_)) {
+        // A post's text.
+        paths = files::list(dir, "txt")?;
+        paths.retain(|p| {
+            p.file_name()
+                .is_some_and(|n| n == format!("{scene}.toot.txt").as_str())
+        });
+    }
     if paths.is_empty() {
         let message = format!("{} has no {scene}.{extension}", dir.display());
         return Err(Failure::Wrong(message));

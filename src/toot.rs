@@ -36,14 +36,17 @@ pub fn characters(documents: &[Document]) -> usize {
     documents.iter().map(|d| d.text.chars().count()).sum()
 }
 
-/// What is said of a program that is to be posted and takes so many seconds, if that is known;
-/// nothing of others. Warns where it is too long for that, or takes too long.
-pub fn said(plan: &Plan, documents: &[Document], seconds: Option<f64>) -> String {
-    if !plan.toot {
-        return String::new();
-    }
-    let (own, tag) = (characters(documents), TAG.chars().count());
-    let all = own + tag;
+/// How many characters a plan's post has with the rest of it; nothing for other programs.
+pub fn posted(plan: &Plan, documents: &[Document]) -> Option<usize> {
+    plan.toot
+        .then(|| characters(documents) + TAG.chars().count())
+}
+
+/// Warns of a post that is too long, or takes too many seconds.
+pub fn warn(post: Option<usize>, seconds: Option<f64>) {
+    let Some(all) = post else {
+        return;
+    };
     if all > POST {
         eprintln!(
             "warning: {} characters too many for a post of {POST}",
@@ -56,10 +59,18 @@ pub fn said(plan: &Plan, documents: &[Document], seconds: Option<f64>) -> String
             duration(LONGEST)
         );
     }
+}
+
+/// What is said of a post of so many characters; nothing of other programs.
+pub fn said(post: Option<usize>) -> String {
+    let Some(all) = post else {
+        return String::new();
+    };
+    let tag = TAG.chars().count();
     format!(
         "a post of {} of {POST} characters: {} of the program, {tag} of {TAG}; all params are \
          folded (--freeze all)\n",
         count(all as u64),
-        count(own as u64)
+        count((all - tag) as u64)
     )
 }

@@ -145,6 +145,8 @@ pub fn run(args: &Args) -> Outcome<()> {
     let seconds = |cycles: f64| cycles / forecast::hertz(&plan, machine);
     let worst = args.worst.then(|| worst::worst(&plan, &text));
     let sizes = written.sizes;
+    let post = toot::posted(&plan, &text);
+    toot::warn(post, forecast.cycles().map(seconds));
     if args.json {
         let files: Vec<_> = written
             .files
@@ -171,19 +173,17 @@ pub fn run(args: &Args) -> Outcome<()> {
                 Forecast::Whole(_) | Forecast::Not(_) => None,
             },
         });
+        said["post_characters"] = json!(post);
         if let Some(worst) = worst {
             said["worst_cycles"] = json!(worst.ok());
         }
         return say_json(&said);
     }
-    say(&(written.text() + &toot::said(&plan, &text, forecast.cycles().map(seconds))))?;
+    say(&(written.text() + &toot::said(post)))?;
     say(&match &forecast {
         Forecast::Whole(cycles) => {
-            let each = if plan.graph.is_moving() {
-                "a picture "
-            } else {
-                ""
-            };
+            let moves = plan.graph.is_moving();
+            let each = if moves { "a picture " } else { "" };
             format!("{} {each}on the machine\n", duration(seconds(*cycles)))
         }
         Forecast::Rows(cycles, rows) => format!(

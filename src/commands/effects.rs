@@ -38,7 +38,7 @@ pub struct Args {
 /// Looks and reports; fails where the machine and its model differ.
 pub fn run(args: &Args) -> Outcome<()> {
     files::may_write_each([args.svg.as_ref()])?;
-    let scene = Scene::load(&args.scene)?;
+    let scene = Scene::load(&args.screen.scene_args(&args.scene))?;
     scene.warn();
     let found = look(&scene, args.target, &args.screen, args.limit)?;
     if let Some(path) = &args.svg {

@@ -42,7 +42,7 @@ pub struct Args {
 /// Profiles and reports.
 pub fn run(args: &Args) -> Outcome<()> {
     files::may_write_each([args.html.as_ref(), args.svg.as_ref()])?;
-    let scene = Scene::load(&args.scene)?;
+    let scene = Scene::load(&args.screen.scene_args(&args.scene))?;
     let mut found = explain(scene, args.target, &args.screen, args.limit)?;
     if args.why {
         found.why = Some(whys(&found, args.target, &args.screen, args.limit)?);

@@ -126,6 +126,7 @@ fn walk(args: &Args, pictures: u32) -> Outcome<()> {
         ("--against", !args.against.is_empty()),
         ("--no-plot", args.screen.no_plot),
         ("--show", args.show),
+        ("--style toot", args.screen.is_toot()),
     ];
     if let Some((option, _)) = asked.iter().find(|(_, asked)| *asked) {
         let message = format!("{option} is of one picture: leave it or --pictures out");

@@ -172,7 +172,8 @@ fn with(options: &str) -> String {
 impl Case<'_> {
     fn look(&self, args: &Args) -> Outcome<Found> {
         let making = &self.making.args;
-        let scene = Scene::open(self.path, &making.changes)?;
+        let changes = making.screen.changes(&making.changes);
+        let scene = Scene::open(self.path, &changes)?;
         let plan = auto_format::plan(&making.screen, &scene, self.target)?.plan;
         let built = trial::build_for(&plan, making.screen.machine(plan.target))?;
         let trial = trial::run(&scene, plan, &[], built.loaded, args.limit)?;

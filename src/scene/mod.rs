@@ -111,6 +111,12 @@ impl Scene {
         angles.map(|param| param.name.clone()).collect()
     }
 
+    /// Whether it moves.
+    pub fn has_states(&self) -> bool {
+        let mut params = self.checked.program.params.iter();
+        params.any(|param| param.next.is_some())
+    }
+
     /// Reads and checks a scene.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use super::{ScreenArgs, Style};
 use crate::failure::{Failure, Outcome};
-use crate::scene::{Scene, SceneArgs};
+use crate::scene::{Changes, Scene, SceneArgs};
 use slowlight_compiler::targets::{System, Target};
 
 impl ScreenArgs {
@@ -11,17 +11,28 @@ impl ScreenArgs {
         self.style == Some(Style::Toot)
     }
 
-    /// The scene's arguments as they are for this style: params cannot be changed in a post.
+    /// The scene's arguments as they are for this style.
     pub fn scene_args(&self, args: &SceneArgs) -> SceneArgs {
-        let mut args = args.clone();
-        if self.is_toot() {
-            args.changes.freeze = vec!["all".to_owned()];
+        SceneArgs {
+            changes: self.changes(&args.changes),
+            ..args.clone()
         }
-        args
+    }
+
+    /// What is changed of a scene as it is for this style: params cannot be changed in a post.
+    pub fn changes(&self, changes: &Changes) -> Changes {
+        let mut changes = changes.clone();
+        if self.is_toot() {
+            changes.freeze.push("all".to_owned());
+        }
+        changes
     }
 
     /// The scene as it moves, unless its first picture alone is wanted, as it is for this style.
     pub fn moving(&self, scene: Scene, still: bool) -> Scene {
+        if self.is_toot() && scene.has_states() {
+            eprintln!("note: a post draws one picture: states stay as they start");
+        }
         match still || self.is_toot() {
             true => scene,
             false => scene.moving(),

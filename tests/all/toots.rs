@@ -170,3 +170,66 @@ fn other_machines_have_no_posts() {
         assert_eq!(output.status.code(), Some(2), "{target}");
     }
 }
+
+/// Loops that are left early around and inside of others, tables by remainders, the least int.
+const ODD: &[&str] = &[
+    "image 6 x 6 inks black, red, yellow, white;
+draw (x, y) = ink((loop (i = 0, s = y) max 2 { if y < 3 then next(i + 1, s + 5) else s } else s) * x mod 4);
+",
+    "image 12 x 9 inks black, red, yellow, white;
+const t = [0, 1, 2; 3, 3, 2; 0, 2, 1];
+draw (x, y) = ink(t[y mod 3, x mod 3]);
+",
+    "image 8 x 8 inks black, red, yellow, white;
+draw (x, y) = ink((y - 8) div (x - 3) mod 4);
+",
+    "image 8 x 8 inks black, red, yellow, white;
+draw (x, y) = ink(floor(1.0 * (y - 5) / (x - 7)) mod 4);
+",
+    "image 20 x 10 inks black, red, yellow, white;
+draw (x, y) = ink(loop (a = 0, r = x) max 60000 { if r > 300 then r mod 4 else
+  next(a + 1, r + 1 + loop (c = 0, p = a) max 4 { if p > x then p else next(c + 1, p + 1) } else p) } else 0);
+",
+];
+
+#[test]
+fn odd_posts_draw_what_their_models_do() {
+    let dir = directory(&[]);
+    for text in ODD {
+        std::fs::write(dir.path().join("odd.scn"), text).expect("a file");
+        let args = ["run", "odd.scn", "-t", "bbc:micro", "--style", "toot"];
+        let run = json(dir.path(), &[&args[..], &["--json"]].concat());
+        assert_eq!(run["differs_from_model"], 0, "{text}");
+    }
+}
+
+#[test]
+fn what_a_post_is_not_is_said() {
+    let moves = "image 8 x 8 inks black, white;
+param p: int = 3 in 0 .. 7;
+state a: int = 0 in 0 .. 7 -> (a + 1) mod 8;
+draw (x, y) = ink(if x == a or y == p then 1 else 0);
+";
+    let dir = directory(&[("moves.scn", moves)]);
+    let toot = ["moves.scn", "-t", "bbc:micro", "--style", "toot"];
+    let ran = |command: &str, more: &[&str]| {
+        let args = [&[command][..], &toot, more].concat();
+        let out = slowlight(dir.path(), &args);
+        let said = String::from_utf8_lossy(&out.stderr).into_owned();
+        (out.status.code(), said)
+    };
+    let (status, said) = ran("build", &["-o", "post/"]);
+    assert!(status == Some(0) && said.contains("one picture"), "{said}");
+    for (command, more) in [
+        ("run", &["--program", "post"][..]),
+        ("explain", &[]),
+        ("effects", &[]),
+    ] {
+        let (status, said) = ran(command, more);
+        assert_eq!(status, Some(0), "{command}: {said}");
+    }
+    for more in [&["--freeze", "nope"][..], &["--pictures", "3"]] {
+        let (status, said) = ran("run", more);
+        assert_eq!(status, Some(2), "{said}");
+    }
+}

@@ -35,6 +35,22 @@ draw (x, y) = {
 ";
 
 /// Nothing to be had.
+/// Balls without end, and rays between them.
+const FIELD: &str = "image 24 x 16 inks black, white;
+shape field() {
+  dist(p) = {
+    let q = (p.x - 2 * round(p.x / 2), p.y, p.z - 2 * round(p.z / 2));
+    length(q) - 0.3
+  };
+}
+scene world { field() is 0.9; }
+draw (x, y) = {
+  let r = ray((0.3, 0.1, 4), unit(((x - 11.5) / 12, (7.5 - y) / 12, -1)));
+  let v = if let h = world.trace(r) then h.normal.y * 0.4 + 0.5 else 0.05;
+  threshold(v, bayer(2)[x mod 2, y mod 2])
+};
+";
+
 const PLAIN: &str = "image 32 x 24 inks black, white;
 draw (x, y) = threshold((x + y) / 56, bayer(4)[x mod 4, y mod 4]);
 ";
@@ -192,7 +208,7 @@ fn a_bound_lets_rays_pass_by() {
 fn an_end_of_rays_lets_them_end() {
     let args = ["-t", "jack", "--format", "f316r", "--rows", "7..8"];
     any(
-        &hold(SCREW, &args),
+        &hold(FIELD, &args),
         &[
             "rays that meet nothing near are followed on, as `world.trace` has no `far`; `far: ",
             "` there, if nothing farther is to be seen, would spare ",

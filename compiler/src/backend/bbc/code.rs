@@ -33,8 +33,10 @@ pub struct Code<'p> {
     /// Loops of the scene around what is written.
     pub loops: u32,
     /// FOR loops that are left by a jump, still open: the NEXT of one around them, which says
-    /// its name, ends them as well. And loops by GOTO around what is written, which do not.
+    /// its name, ends them as well.
     pub open: u32,
+    /// What is around the statements that are written and ends no such loop: loops by GOTO, a
+    /// row, whose NEXT says no name, the picture.
     pub gotos: u32,
     /// What loops count by themselves.
     pub counted: Counted,
@@ -65,7 +67,7 @@ impl<'p> Code<'p> {
             },
             loops: 0,
             open: 0,
-            gotos: 0,
+            gotos: 1,
             counted: Counted::default(),
             labels: Labels::default(),
             ends: None,

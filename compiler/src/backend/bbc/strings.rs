@@ -5,7 +5,7 @@ use super::text::Text;
 use crate::ir::graph::{Node, NodeId, TableId};
 use crate::plan::Plan;
 use slowlight_routine::{Range, Type, Value};
-use slowlight_runtime_bbc::level::{OPERAND, PRODUCT, SUM};
+use slowlight_runtime_bbc::level::{OPERAND, POWER, PRODUCT, SUM};
 
 /// A string on a line of its own has room for its quotes and what reads it.
 const LONGEST: usize = 200;
@@ -114,7 +114,7 @@ impl Expressions<'_> {
         match (by, self.plan.graph.node(id)) {
             (1, Node::Axis(_)) => index.text,
             (1, _) => index.at(SUM),
-            (by, _) => format!("{by}*{}", index.at(PRODUCT)),
+            (by, _) => format!("{by}*{}", index.at(POWER)),
         }
     }
 }

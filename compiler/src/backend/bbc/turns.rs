@@ -201,15 +201,16 @@ impl Code<'_> {
         self.lines.place(top);
         self.gotos += 1;
         self.often(&turns.body, TURNS);
-        self.gotos -= 1;
         if turns.always(&self.values.plan.graph) {
             self.block(&turns.next);
+            self.gotos -= 1;
             self.lines.line(format!("GOTO {top}"), span);
             return;
         }
         let holds = self.values.condition(turns.again, true);
         let fails = self.values.condition(turns.again, false);
         let next = self.apart(&turns.next);
+        self.gotos -= 1;
         match next.in_one_line().filter(|text| text.len() < NEXT) {
             Some(text) if text.is_empty() => {
                 self.lines.line(format!("IF {holds} THEN {top}"), span);

@@ -4,6 +4,7 @@ use super::super::lines::MARK;
 use super::super::pieces::{Piece, pieces};
 use super::super::screen::OWN;
 use super::super::strings::NAME;
+use super::shared::GREATEST;
 use slowlight_isa::basic_tokens::KEYWORDS;
 use std::collections::BTreeMap;
 
@@ -70,11 +71,15 @@ fn free() -> impl Iterator<Item = String> {
 }
 
 impl Letters {
-    /// Letters for all that some lines name, first for what is named most often.
+    /// Letters for all that some lines name, first for what is named most often. Variables of ints
+    /// are reals, which are read no slower and have shorter names, but where there may be the
+    /// least int: a real of that size is none to `AND` and `DIV`.
     pub fn of<'t>(texts: impl Iterator<Item = &'t str>) -> Letters {
         let mut met: BTreeMap<String, usize> = BTreeMap::new();
+        let mut wide = false;
         for text in texts {
             let all = pieces(text);
+            wide |= all.contains(&Piece::Word(GREATEST));
             for key in (0..all.len()).filter_map(|at| key(&all, at)) {
                 if !key.starts_with(NAME) {
                     *met.entry(key).or_default() += 1;
@@ -86,7 +91,12 @@ impl Letters {
         let mut given = BTreeMap::new();
         for of in 0..=3 {
             let own = by_use.iter().filter(|(key, _)| kind(key) == of);
-            given.extend(own.map(|(key, _)| key.clone()).zip(free()));
+            let letter = |((key, _), letter): (&(String, usize), String)| {
+                let is_int = wide && key.trim_end_matches('(').ends_with('%');
+                let sign = if is_int { "%" } else { "" };
+                (key.clone(), format!("{letter}{sign}"))
+            };
+            given.extend(own.zip(free()).map(letter));
         }
         Letters(given)
     }

@@ -7,6 +7,9 @@ use std::collections::BTreeMap;
 /// What the variable of a number is called until it is named.
 const NAME: &str = "number_";
 
+/// The greatest int: the least is made of it, which no real variable may hold on the way.
+pub const GREATEST: &str = "2147483647";
+
 /// The runtime's limits, which are variables where these are quicker.
 const LIMITS: [(&str, &str); 8] = [
     ("BIG", "1.7E38"),
@@ -76,7 +79,7 @@ pub fn shared(mut lines: Lines) -> Lines {
     let mut met: BTreeMap<String, usize> = BTreeMap::new();
     for text in lines.texts() {
         for (part, is_number) in parts(text) {
-            if is_number {
+            if is_number && part != GREATEST {
                 *met.entry(number(&part)).or_default() += 1;
             }
         }
