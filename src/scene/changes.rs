@@ -68,12 +68,13 @@ pub(super) fn options(args: &Changes, program: &Program) -> Outcome<Options> {
         })?;
         set.push((name.trim().to_owned(), values));
     }
+    let mut names = args.freeze.iter().filter(|name| *name != "all");
+    names.try_for_each(|name| known(name))?;
     let freeze = if args.freeze.iter().any(|f| f == "all") {
         Freeze::All
     } else if args.freeze.is_empty() {
         Freeze::Nothing
     } else {
-        args.freeze.iter().try_for_each(|name| known(name))?;
         Freeze::Some(args.freeze.clone())
     };
     let effects: Vec<&str> = program

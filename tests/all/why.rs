@@ -34,7 +34,6 @@ draw (x, y) = {
 };
 ";
 
-/// Nothing to be had.
 /// Balls without end, and rays between them.
 const FIELD: &str = "image 24 x 16 inks black, white;
 shape field() {
@@ -51,6 +50,7 @@ draw (x, y) = {
 };
 ";
 
+/// Nothing to be had.
 const PLAIN: &str = "image 32 x 24 inks black, white;
 draw (x, y) = threshold((x + y) / 56, bayer(4)[x mod 4, y mod 4]);
 ";
