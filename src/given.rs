@@ -19,7 +19,11 @@ impl<T: Args> Given<T> {
     /// Where they are none of these options.
     pub fn read(text: &str) -> Result<Given<T>, String> {
         let words = shlex::split(text).ok_or("a quote is not closed")?;
-        let command = T::augment_args(Command::new("options").no_binary_name(true));
+        // Help is for who reads a terminal.
+        let command = Command::new("options")
+            .no_binary_name(true)
+            .disable_help_flag(true);
+        let command = T::augment_args(command);
         let matches = command.try_get_matches_from(words);
         let found = matches.and_then(|m| Given::from_arg_matches(&m));
         found.map_err(|e| {

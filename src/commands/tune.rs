@@ -19,7 +19,7 @@ use crate::tune::page::page;
 use crate::tune::plot::svg;
 use crate::tune::point::{Natives, Point, encoded};
 use crate::tune::rows::Look;
-use crate::tune::search::Search;
+use crate::tune::search::{SETTINGS, Search};
 use crate::tune::tell::Told;
 use crate::{say, say_json};
 use slowlight_compiler::targets::Target;
@@ -78,7 +78,7 @@ pub struct Args {
     #[arg(long)]
     live: bool,
     /// How many settings, of blocks and loops, are tried in each format
-    #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u16).range(1..=200))]
+    #[arg(long, value_name = "N", default_value_t = SETTINGS, value_parser = clap::value_parser!(u16).range(1..=200))]
     settings: u16,
     /// How much work to do: so many times the usual, which takes a minute on two processors
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]

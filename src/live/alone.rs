@@ -4,6 +4,7 @@
 //! worker.
 
 use super::board::{Board, Pictures, Task, Wish};
+use super::frontier;
 use super::machine::{self, Kept};
 use super::native;
 use super::run::{self, Run};
@@ -159,6 +160,9 @@ impl Alone {
             Ok(scene) => {
                 let build = |plan: &PlannedScene, screen: &ScreenArgs| built(plan, screen, tell);
                 let more = (&mut self.kept, &build as machine::Build<'_>);
+                if task == Task::Tune {
+                    board.show(|shown, _| frontier::begun(shown, run));
+                }
                 let done = machine::done(&board, run, &scene, task, more);
                 machine::ended(&board, run, (task, before.unwrap_or_default()), done);
             }

@@ -7,27 +7,36 @@
 
 use super::board::Board;
 use super::run::Run;
-use super::shown::{Dot, Frontier, Stage};
+use super::shown::{Dot, Frontier, Shown, Stage};
 use crate::failure::{Failure, Outcome};
 use crate::scene::{Changes, Scene};
 use crate::target_args::ScreenArgs;
 use crate::trial::LIMIT;
 use crate::tune::cache::Cache;
-use crate::tune::choice::{Base, Choice};
+use crate::tune::choice::{Base, Choice, Setting};
 use crate::tune::effort::Effort;
 use crate::tune::explore::{Found, explore};
 use crate::tune::goal::Measure;
 use crate::tune::point::Point;
 use crate::tune::rows::Look;
-use crate::tune::search::Search;
+use crate::tune::search::{SETTINGS, Search};
 use crate::tune::tell::Told;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
-/// How many settings go to the machine, as `tune` has it.
-const SETTINGS: usize = 12;
+/// A search begins for a run: it is shown, whatever is chosen from here on.
+pub fn begun(shown: &mut Shown, run: &Run) {
+    if let Some(panel) = shown.panels.get_mut(run.panel) {
+        panel.frontier = Frontier {
+            serial: run.serial,
+            stage: Stage::Running,
+            ..Frontier::default()
+        };
+    }
+}
 
-/// Searches for what is worth choosing, and shows it as it is found.
+/// Searches for what is worth choosing, and shows it as it is found; that it has [`begun`] is
+/// shown already.
 ///
 /// # Errors
 /// As [`explore`]; nothing where the scene has become another meanwhile.
@@ -38,21 +47,12 @@ pub fn search(board: &impl Board, run: &Run, scene: &Scene) -> Outcome<()> {
         measure: Measure::Pixels,
         live: false,
         smaller: false,
-        settings: SETTINGS,
+        settings: usize::from(SETTINGS),
         limit: LIMIT,
         by_line: false,
         effort: Effort::times(1),
         cache: Cache::of_user(),
     };
-    board.show_run(run, |shown, _| {
-        if let Some(panel) = shown.panels.get_mut(run.panel) {
-            panel.frontier = Frontier {
-                serial: run.serial,
-                stage: Stage::Running,
-                ..Frontier::default()
-            };
-        }
-    });
     let found = Arc::new(Mutex::new(Found::default()));
     let tell = || {
         let Ok(found) = found.lock() else {
@@ -77,7 +77,16 @@ pub fn search(board: &impl Board, run: &Run, scene: &Scene) -> Outcome<()> {
     // How many ways there are is known once all is.
     tell();
     let found = found.lock().map(|found| found.clone()).unwrap_or_default();
-    match (found.points.is_empty(), found.failed.into_iter().next()) {
+    // Of many reasons that of the plainest way: others may be asked for what is not there.
+    let plainest = (found.failed.into_iter()).min_by_key(|(choice, _)| {
+        let usual = choice.format == run.target.runtime.format;
+        (
+            choice.setting != Setting::WHOLE,
+            !usual,
+            base.words(choice).len(),
+        )
+    });
+    match (found.points.is_empty(), plainest) {
         (true, Some((_, why))) => Err(Failure::Wrong(why)),
         _ => Ok(()),
     }

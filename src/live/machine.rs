@@ -4,7 +4,7 @@
 use super::board::{Board, Pictures, Task, Views};
 use super::frontier;
 use super::run::{MOST, Run};
-use super::shown::{Built, Costs, Machine as State, Panel, Planned, Shown, Stage};
+use super::shown::{Costs, Machine as State, Panel, Planned, Shown, Stage};
 use crate::auto_format;
 use crate::draw::{self, Window};
 use crate::explain::{self, Explained, error};
@@ -55,21 +55,21 @@ pub fn done<B: Board>(
     task: Task,
     (kept, build): (&mut Kept, Build<'_>),
 ) -> Outcome<()> {
-    if task == Task::Tune {
-        return frontier::search(board, run, scene);
-    }
-    let (screen, scene) = run.planned_with(scene)?;
-    let work = Work {
-        board,
-        run,
-        scene: &scene,
-        screen,
-    };
     let kept = (kept.get_mut(run.panel)).ok_or(Failure::Interrupted)?;
+    let with_options = |work: &mut dyn FnMut(&Work<'_, B>) -> Outcome<()>| {
+        let (screen, scene) = run.planned_with(scene)?;
+        work(&Work {
+            board,
+            run,
+            scene: &scene,
+            screen,
+        })
+    };
     match task {
-        Task::Run | Task::Tune => work.run(kept),
-        Task::Costs => work.costs(kept),
-        Task::Build => work.build(kept, build),
+        Task::Tune => frontier::search(board, run, scene),
+        Task::Run => with_options(&mut |work| work.run(kept)),
+        Task::Costs => with_options(&mut |work| work.costs(kept)),
+        Task::Build => with_options(&mut |work| work.build(kept, build)),
     }
 }
 
@@ -83,6 +83,12 @@ pub fn ended<B: Board>(board: &B, run: &Run, (task, before): (Task, Stage), done
         Failure::TooLarge(large) => Some(large.text),
         other => Some(other.reason()),
     });
+    if let (Task::Build, Some(why)) = (task, &failed) {
+        // Whatever is chosen by now: somebody waits for the files.
+        let why = why.clone();
+        let why = why.unwrap_or_else(|| "not built: it was stopped".to_owned());
+        board.show(|shown, _| shown.build(run.target.name, Vec::new(), Some(why)));
+    }
     // Whoever's work it was: no machine runs now.
     board.show(|shown, _| with_panel(shown, run, |panel| panel.machine.at_work = 0));
     board.show_run(run, |shown, _| {
@@ -92,7 +98,7 @@ pub fn ended<B: Board>(board: &B, run: &Run, (task, before): (Task, Stage), done
             Some(None) => Stage::Stopped,
             Some(Some(_)) => Stage::Wrong,
         };
-        let why = failed.flatten();
+        let why = failed.clone().flatten();
         with_panel(shown, run, |panel| {
             let machine = &mut panel.machine;
             if machine.serial != run.serial {
@@ -113,19 +119,8 @@ pub fn ended<B: Board>(board: &B, run: &Run, (task, before): (Task, Stage), done
                     ..shown.costs
                 };
             }
-            Task::Build if why.is_some() => build_shown(shown, run, Vec::new(), why),
             _ => {}
         }
-    });
-}
-
-/// Another program was built, or was not.
-fn build_shown(shown: &mut Shown, run: &Run, files: Vec<String>, wrong: Option<String>) {
-    shown.built = Some(Built {
-        target: run.target.name,
-        count: shown.built.as_ref().map_or(1, |built| built.count + 1),
-        files,
-        wrong,
     });
 }
 
@@ -304,9 +299,8 @@ impl<B: Board> Work<'_, B> {
         let plan = self.plan(kept)?;
         self.show(|machine| machine.stage = Stage::Building);
         let files = build(&plan, &self.screen)?;
-        (self.board).show_run(self.run, |shown, _| {
-            build_shown(shown, self.run, files, None);
-        });
+        // They are there, whatever is chosen by now.
+        (self.board).show(|shown, _| shown.build(self.run.target.name, files, None));
         Ok(())
     }
 }

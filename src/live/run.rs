@@ -162,6 +162,7 @@ mod tests {
             "--block 0",
             "--freeze light",
             "--no-plot",
+            "--help",
             "--prelude /",
             "torus.scn",
             "'",

@@ -27,6 +27,18 @@ pub struct Shown {
     pub built: Option<Built>,
 }
 
+impl Shown {
+    /// Another program was built, or was not.
+    pub fn build(&mut self, target: &'static str, files: Vec<String>, wrong: Option<String>) {
+        self.built = Some(Built {
+            target,
+            count: self.built.as_ref().map_or(1, |built| built.count + 1),
+            files,
+            wrong,
+        });
+    }
+}
+
 /// The text's state.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Text {
@@ -96,6 +108,17 @@ pub struct Panel {
     pub machine: Machine,
     /// What is worth choosing there, once somebody asked.
     pub frontier: Frontier,
+    /// What was asked for and has not had its turn.
+    pub waits: Waits,
+}
+
+/// What waits for its turn, beside runs and searches.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Waits {
+    /// To count what lines cost.
+    pub costs: bool,
+    /// To write the program.
+    pub build: bool,
 }
 
 /// How far a picture is.
@@ -280,7 +303,7 @@ pub struct Frontier {
     pub stage: Stage,
     /// Whether a search is still to begin.
     pub waits: bool,
-    /// Whether text, values or mode are others by now.
+    /// Whether text, values or mode are others now.
     pub stale: bool,
     /// What is worth choosing so far, from the quickest to the slowest.
     pub points: Vec<Dot>,

@@ -24,7 +24,9 @@ pub(super) fn of_columns(scene: &Scene, plan: &Plan) -> Outcome<()> {
 impl ScreenArgs {
     /// Fails where something is asked for that only pixels have.
     pub(super) fn check_columns(&self, target: &Target) -> Outcome<()> {
-        let of_pixels = self.block.is_some() || self.refine.is_some() || self.rows.is_some();
+        // A block of one pixel is none: it is what `tune` asks for where nothing is left out.
+        let block = self.block.filter(|block| *block != (1, 1));
+        let of_pixels = block.is_some() || self.refine.is_some() || self.rows.is_some();
         if !target.columns_only || !of_pixels {
             return Ok(());
         }

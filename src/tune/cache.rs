@@ -13,6 +13,8 @@ use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
 use slowlight_compiler::targets::Target;
 use std::path::PathBuf;
+#[cfg(not(target_family = "wasm"))]
+use std::sync::OnceLock;
 
 /// How large a file is read at most: a point has two pictures.
 const MOST: usize = 64 << 20;
@@ -38,11 +40,15 @@ impl Cache {
     /// The user's; none where there is no such directory, or the program cannot read itself.
     #[cfg(not(target_family = "wasm"))]
     pub fn of_user() -> Cache {
-        let program = std::env::current_exe().and_then(std::fs::read);
-        let (Some(dir), Ok(program)) = (dirs::cache_dir(), program) else {
+        // Once: `live` searches again and again.
+        static OWN: OnceLock<Option<String>> = OnceLock::new();
+        let own = OWN.get_or_init(|| {
+            let program = std::env::current_exe().and_then(std::fs::read);
+            Some(digest::bytes(&program.ok()?))
+        });
+        let (Some(dir), Some(own)) = (dirs::cache_dir(), own) else {
             return Cache::none();
         };
-        let own = digest::bytes(&program);
         Cache {
             dir: Some(dir.join("slowlight").join("tune").join(own)),
         }

@@ -8,6 +8,9 @@ use super::rows::Look;
 use crate::format::duration;
 use crate::progress;
 
+/// How many settings go to the machines, where nobody says it.
+pub const SETTINGS: u16 = 12;
+
 /// What is tuned and how.
 pub struct Search {
     /// What stays as the user has it.

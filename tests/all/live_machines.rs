@@ -130,6 +130,87 @@ fn a_search_is_stopped_by_the_page_and_by_another_text() {
     assert_eq!(shown["chosen"]["runs"][0]["options"], dot["options"]);
 }
 
+/// How long a text must rest before machines are put to work, and more.
+const REST: std::time::Duration = std::time::Duration::from_millis(500);
+
+#[test]
+fn a_search_is_seen_and_is_of_what_was_wanted_when_it_began() {
+    let dir = directory(&[("ball.scn", BALL)]);
+    let live = Live::begin(dir.path(), &["ball.scn", "-t", "6502:bbc"]);
+    live.run(1);
+    std::thread::sleep(REST);
+    // Another format is chosen while the search has hardly begun.
+    live.post("tune", &json!({"panel": 0}));
+    std::thread::sleep(std::time::Duration::from_millis(15));
+    let run =
+        |format: &str, mode: Value| json!({"target": "6502:bbc", "format": format, "mode": mode});
+    let log = run("log10", Value::Null);
+    let serial = live.edit(json!({"runs": [log]}));
+    let shown = live.until("its end", |s| frontier(s)["stage"] == "done");
+    assert_eq!(frontier(&shown)["stale"], false);
+    assert!(frontier(&shown)["points"].as_array().map(Vec::len) > Some(2));
+    live.run(serial);
+    // What it is of is chosen otherwise, and as it was: mode, values, text.
+    let light = |x: f64| json!({"set": {"light": [x, 0.7, 0.5]}});
+    let text = |text: &str| json!({"text": text});
+    for (other, back) in [
+        (
+            json!({"runs": [run("log10", json!("1"))]}),
+            json!({"runs": [log]}),
+        ),
+        (light(0.4), json!({"set": {}})),
+        (light(0.4), light(0.5)),
+        (text(&BALL.replace("0.8 *", "0.7 *")), text(BALL)),
+    ] {
+        live.edit(other.clone());
+        let shown = live.state(0).1;
+        assert_eq!(frontier(&shown)["stale"], true, "{other}");
+        live.edit(back.clone());
+        let shown = live.state(0).1;
+        assert_eq!(frontier(&shown)["stale"], false, "{back}");
+    }
+}
+
+#[test]
+fn what_waits_for_a_search_is_shown_and_said_where_it_is_dropped() {
+    let dir = directory(&[("ball.scn", &large("0.8 *"))]);
+    let live = Live::begin(dir.path(), &["ball.scn", "-t", "jack"]);
+    let searching = |shown: &Value| frontier(shown)["stage"] == "running";
+    let waits = |shown: &Value, what: &str| shown["panels"][0]["waits"][what] == true;
+    live.drawn(1);
+    live.post("tune", &json!({"panel": 0}));
+    live.until("that it searches", searching);
+    live.post("costs", &json!({"panel": 0}));
+    live.post("build", &json!({"panel": 0}));
+    let shown = live.state(0).1;
+    assert!(searching(&shown) && waits(&shown, "costs") && waits(&shown, "build"));
+    // All is run again: the search, which hangs on nothing of it, goes on.
+    live.post("run", &json!({}));
+    let shown = live.state(0).1;
+    assert!(searching(&shown) && !waits(&shown, "costs") && !waits(&shown, "build"));
+    assert!(shown["built"]["wrong"].to_string().contains("not built"));
+    live.drawn(shown["chosen"]["serial"].as_u64().expect("a number"));
+    assert!(searching(&live.state(0).1));
+    live.post("build", &json!({"panel": 0}));
+    live.edit(json!({"runs": [{"target": "jack", "format": "log10"}]}));
+    let shown = live.state(0).1;
+    assert!(searching(&shown));
+    assert_eq!(shown["built"]["count"], 2);
+    live.post("stop-search", &json!({"panel": 0}));
+    live.until("its end", |s| frontier(s)["stage"] == "stopped");
+}
+
+#[test]
+fn a_search_of_nothing_says_why_the_plainest_way_cannot_be() {
+    let dir = directory(&[("ball.scn", BALL)]);
+    let live = Live::begin(dir.path(), &["ball.scn", "-t", "6502:vcs"]);
+    live.drawn(1);
+    live.post("tune", &json!({"panel": 0}));
+    let shown = live.until("its end", |s| frontier(s)["stage"] == "wrong");
+    let said = frontier(&shown)["wrong"].to_string();
+    assert!(said.contains("column scenes only"), "{said}");
+}
+
 #[test]
 fn a_second_machine_runs_beside_the_first() {
     let dir = directory(&[("ball.scn", BALL)]);

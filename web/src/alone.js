@@ -25,6 +25,8 @@ drawing.told = drawn;
 
 const urls = new Map();
 const files = new Map();
+// What each machine's frontier is of, where there is one.
+const searched = [null, null];
 const counts = { native: 0, machine: 0, costs: 0, built: 0 };
 // What is shown of a machine of which nothing is known.
 const blank = () => structuredClone(about.blank.panels[0]);
@@ -77,9 +79,18 @@ function begin({ name, text, runs, set }) {
 
 const like = (a, b, names) => Boolean(a && b) && names.every((name) => a[name] === b[name]);
 
+// All that the points of a machine's search hang on; a value that is the text's own is none that
+// was set.
+function hangsOn(panel) {
+  const own = (name) => shown.params.find((p) => p.name === name)?.parts.map((part) => part.value);
+  const set = Object.entries(wish.set).filter(([name, values]) => String(own(name)) !== String(values)).sort();
+  const { target, mode } = wish.runs[panel] ?? {};
+  return JSON.stringify([wish.name, wish.text, set, target, mode]);
+}
+
 // A wish has come, for all (`whole`) or for those machines that are others than before: what is
-// done for older ones is in vain. Where text or values are others (`other`), what accuracy costs
-// is known of an older scene alone.
+// done for older ones is in vain. Where text or values are others (`other`), so is what accuracy
+// costs.
 function wished(runs, whole, other) {
   last += 1;
   whole ||= shown.native.stage === "stopped";
@@ -93,14 +104,13 @@ function wished(runs, whole, other) {
     const [now, old] = [wish.runs[panel], before[panel]];
     if (!now) {
       shown.panels[panel] = blank();
+      searched[panel] = null;
       noMore(panel, () => true);
     } else if (now !== old) {
       const same = !other && like(now, old, ["target", "mode"]);
-      const { frontier } = shown.panels[panel];
-      if (like(now, old, ["target"])) frontier.stale ||= !same;
-      else shown.panels[panel].frontier = blank().frontier;
-      // A search goes on while others of its points are looked at.
-      noMore(panel, (task) => whole || !same || task !== "tune");
+      if (!like(now, old, ["target"])) [shown.panels[panel].frontier, searched[panel]] = [blank().frontier, null];
+      // A search goes on while others of its points are looked at, and all is run again.
+      noMore(panel, (task) => !same || task !== "tune");
       queue("run", panel);
     }
   }
@@ -120,15 +130,24 @@ function wished(runs, whole, other) {
 // Something is to be done for a machine; whoever asked for more than runs waits for these.
 function queue(task, panel) {
   const now = running.doing;
-  const doing = now?.task === task && now.panel === panel && now.serial === wish.runs[panel]?.serial;
-  if (!doing && !tasks.some((t) => t.task === task && t.panel === panel)) tasks.push({ task, panel });
+  // A search is of any number, as it goes on only while it would be the same.
+  const same = task === "tune" || now?.serial === wish.runs[panel]?.serial;
+  const doing = now?.task === task && now.panel === panel && same;
+  if (!doing && !tasks.some((t) => t.task === task && t.panel === panel)) tasks.push({ task, panel, target: wish.runs[panel].target });
   tasks.sort((a, b) => (a.task !== "run") - (b.task !== "run"));
 }
 
 // Nothing of some kind is done for a machine any more.
 function noMore(panel, kind) {
-  tasks = tasks.filter((t) => t.panel !== panel || !kind(t.task));
-  if (running.doing?.panel === panel && kind(running.doing.task)) halt();
+  const ends = (t) => t?.panel === panel && kind(t.task);
+  const built = [running.doing, ...tasks].find((t) => ends(t) && t.task === "build");
+  if (built) {
+    counts.built += 1;
+    const wrong = "not built: something else was chosen before its turn came";
+    shown.built = { target: built.target, count: counts.built, files: [], wrong };
+  }
+  tasks = tasks.filter((t) => !ends(t));
+  if (ends(running.doing)) halt();
 }
 
 // Ends what the machines' worker does.
@@ -165,7 +184,12 @@ function work() {
   if (rest || running.doing || ready !== wish.serial || !tasks.length) return;
   const { task, panel } = tasks.shift();
   if (task === "build") files.clear();
+  if (task === "tune") {
+    shown.panels[panel].frontier = { ...blank().frontier, serial: wish.runs[panel].serial, stage: "running" };
+    searched[panel] = hangsOn(panel);
+  }
   running.does(task, asked(wish.runs[panel]), shown.panels[panel].machine.stage);
+  running.doing.target = wish.runs[panel].target;
 }
 
 // What a worker's end was for.
@@ -235,7 +259,12 @@ function tell() {
   telling = true;
   setTimeout(() => {
     telling = false;
-    shown.panels.forEach((panel, k) => { panel.frontier.waits = tasks.some((t) => t.task === "tune" && t.panel === k); });
+    shown.panels.forEach((panel, k) => {
+      const waits = (task) => tasks.some((t) => t.task === task && t.panel === k);
+      panel.frontier.waits = waits("tune");
+      panel.frontier.stale = searched[k] !== null && searched[k] !== hangsOn(k);
+      panel.waits = { costs: waits("costs"), build: waits("build") };
+    });
     for (const each of heard) each({ ...shown });
   });
 }

@@ -11,8 +11,8 @@ export async function get(path) {
   return answer.json();
 }
 
-// Wants something done; answers what became of it.
-export async function post(path, body = {}) {
+// Wants something done; answers what became of it, and throws where nobody answers.
+async function send(path, body) {
   const answer = await fetch(path, {
     method: "POST",
     headers: { "Content-Type": "application/json" },
@@ -20,6 +20,9 @@ export async function post(path, body = {}) {
   });
   return { ok: answer.ok, status: answer.status, said: await answer.json().catch(() => ({})) };
 }
+
+// The same; that nobody answers is said by what follows the news.
+export const post = (path, body = {}) => send(path, body).catch(() => ({ ok: false, status: 0, said: {} }));
 
 let pending = null;
 let sending = false;
@@ -33,7 +36,7 @@ export async function want(change) {
     const next = pending;
     pending = null;
     try {
-      await post("edit", { page: me, ...next });
+      await send("edit", { page: me, ...next });
     } catch {
       // It does not answer: what follows the news says so. The wish is kept.
       pending = { ...next, ...pending };

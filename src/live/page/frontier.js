@@ -7,6 +7,8 @@ import { plot, share } from "./plot.js";
 const keyOf = (point) => point.format + " " + point.options;
 const words = (point, formats) => [formats ? "--format " + point.format : "", point.options].filter(Boolean).join(" ") || "none";
 
+const many = (ways) => ways + (ways === 1 ? " way" : " ways");
+
 // A frontier in its section, whose parts are had by `place`. `told` is the panel's.
 export function frontier(section, place, told) {
   const rows = new Map();
@@ -89,18 +91,20 @@ export function frontier(section, place, told) {
 
   function said() {
     if (known.waits) return "The search begins once the machine has done what it does now.";
-    const ways = known.points.length + " of " + known.tried + " ways are worth choosing";
+    const are = known.points.length === 1 ? " is" : " are";
+    const ways = known.points.length + " of " + many(known.tried) + are + " worth choosing";
     if (known.stage === "running") {
-      return known.points.length ? "Searching, which may take some minutes: " + known.measured + " ways measured so far, " + known.points.length + " worth choosing."
+      return known.points.length ? "Searching, which may take some minutes: " + many(known.measured) + " measured so far, " + known.points.length + " worth choosing."
         : "Searching, which may take some minutes.";
     }
     if (known.wrong) return known.wrong;
-    const stopped = known.stage === "stopped" ? "Stopped: " + known.points.length + " of what was measured until then are worth choosing." : ways + ": none other is both quicker and nearer to the native picture.";
+    const stopped = known.stage === "stopped" ? "Stopped: " + known.points.length + " of what was measured until then" + are + " worth choosing." : ways + ": none other is both quicker and nearer to the native picture.";
     return known.stale ? "Of the scene as it was: search again for what it costs now." : stopped;
   }
 
   return {
-    show(frontier, wanted, two, shown) {
+    // `name`: the machine's, where there are two.
+    show(frontier, wanted, name, shown) {
       [known, run, points] = [frontier, wanted, frontier.points];
       const there = Boolean(run) && (frontier.stage !== "idle" || frontier.waits);
       section.hidden = !there;
@@ -112,7 +116,7 @@ export function frontier(section, place, told) {
       section.classList.toggle("stale", frontier.stale);
       place("plot").hidden = section.querySelector(".points").hidden = !points.length;
       if (!there) return;
-      say(place("frontier-title").id, "What accuracy costs" + (two ? " on " + run.target : ""));
+      say(place("frontier-title").id, "What accuracy costs" + (name && " on " + name));
       say(place("frontier-said").id, said());
       table();
       draw();

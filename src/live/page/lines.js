@@ -1,7 +1,7 @@
 // What each line of the scene costs on the machine, in the editor's gutter and in words.
 
 import { get, post } from "./desk.js";
-import { count, percent, say } from "./pictures.js";
+import { count, machineName, percent, say, waitsFor } from "./pictures.js";
 
 let editor = null;
 let report = null;
@@ -60,7 +60,7 @@ function tell() {
   told.hidden = asked === null || !state;
   if (told.hidden) return;
   const { runs } = state.chosen;
-  say("line-title", "Line " + asked + (runs.length > 1 && runs[panel] ? " on " + runs[panel].target : ""));
+  say("line-title", "Line " + asked + (runs.length > 1 && runs[panel] ? " on " + machineName(runs, panel) : ""));
   const said = place("line-said");
   const text = words();
   const key = JSON.stringify(text);
@@ -75,7 +75,9 @@ function tell() {
 function words() {
   if (state.costs.wrong && isOfThese()) return [state.costs.wrong];
   if (!isKnown()) {
-    return [state.panels[panel].machine.stage === "counting" ? "The machine counts what each line takes." : "Press “Cycles by line” to count again: the scene has changed."];
+    const { machine, waits } = state.panels[panel];
+    if (waits.costs) return ["Counting " + waitsFor(state) + "."];
+    return [machine.stage === "counting" ? "The machine counts what each line takes." : "Press “Cycles by line” to count: nothing is known of what is chosen now."];
   }
   const line = own().find((line) => line.line === asked);
   if (!line) return ["Nothing on the machine comes from this line."];

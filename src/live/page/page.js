@@ -2,7 +2,7 @@
 
 import { editor as makeEditor } from "./editor.js";
 import { alone, follow, get, isSending, me, post, want } from "./desk.js";
-import { say, showNative } from "./pictures.js";
+import { machineName, say, showNative, waitsFor } from "./pictures.js";
 import { option, panel } from "./panel.js";
 import { showParams } from "./params.js";
 import * as lines from "./lines.js";
@@ -29,7 +29,7 @@ const editor = makeEditor(place("editor"), start.text, {
 lines.begin(editor);
 
 async function save(force) {
-  const { ok, said } = await post("save", { page: me, text: wellFormed(editor.text()), force }).catch(() => ({ ok: false, said: {} }));
+  const { ok, said } = await post("save", { page: me, text: wellFormed(editor.text()), force });
   if (!ok) say("saved", "not saved" + (said.wrong ? ": " + said.wrong : ""));
 }
 
@@ -41,7 +41,9 @@ function unsaved() {
 
 // Another text, from the file or from another page.
 async function another() {
-  const now = await get("scene");
+  const now = await get("scene").catch(() => null);
+  // Who does not answer now is asked again with the next news.
+  if (!now) return;
   revision = now.revision;
   editor.become(now.text);
 }
@@ -99,11 +101,20 @@ function toSave(name) {
 }
 
 let built = 0;
+let buildWaits = false;
 function showBuilt() {
+  const { runs } = shown.chosen;
+  const k = shown.panels.findIndex((panel) => panel.waits.build);
+  if (runs[k]) {
+    buildWaits = true;
+    return say("built", (runs.length > 1 ? machineName(runs, k) + ": " : "") + "Build " + waitsFor(shown));
+  }
+  if (buildWaits) say("built", "");
+  buildWaits = false;
   const now = shown.built;
   if (!now || now.count === built) return;
   built = now.count;
-  const of = shown.chosen.runs.length > 1 ? now.target + ": " : "";
+  const of = runs.length > 1 ? now.target + ": " : "";
   if (alone && !now.wrong) return place("built").replaceChildren(of + "Save: ", ...now.files.map(toSave));
   say("built", of + (now.wrong ?? "Written to " + shown.file.directory + ": " + now.files.join(", ")));
 }
@@ -123,7 +134,7 @@ follow((news) => {
   const chosen = mine ? shown.chosen.runs.map((run, k) => ({ ...run, ...mine[k] })) : shown.chosen.runs;
   const two = chosen.length > 1;
   document.body.classList.toggle("two", two);
-  const busy = panels.map((panel, k) => panel.show(shown, chosen[k], two)).some(Boolean);
+  const busy = panels.map((panel, k) => panel.show(shown, chosen)).some(Boolean);
   showParams(shown.params, shown.chosen.set, {
     want: (set) => want({ set }),
     keep(param, text, set) {

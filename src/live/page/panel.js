@@ -2,7 +2,7 @@
 // costs there.
 
 import { picture as address } from "./desk.js";
-import { count, duration, percent, picture, say, sayOptions } from "./pictures.js";
+import { count, duration, machineName, percent, picture, say, sayOptions, waitsFor } from "./pictures.js";
 import { frontier } from "./frontier.js";
 
 const stages = {
@@ -69,13 +69,14 @@ export function panel(k, machines, told) {
     }
   }
 
-  function showMachine(shown, run, two) {
+  function showMachine(shown, runs) {
+    const [run, two, name] = [runs[k], runs.length > 1, machineName(runs, k)];
     const state = shown.panels[k].machine;
     const frame = place("machine-frame");
     const wrong = shown.native.stage === "wrong";
     const old = state.serial !== run.serial || wrong;
-    say(id("machine-name"), run.target);
-    say(id("facts-title"), run.target);
+    say(id("machine-name"), name);
+    say(id("facts-title"), name);
     place("facts-title").hidden = !two;
     frame.classList.toggle("old", state.picture > 0 && (old || state.stage === "planning" || state.stage === "wrong"));
     if (state.size[0]) frame.style.aspectRatio = state.size.join(" / ");
@@ -84,11 +85,10 @@ export function panel(k, machines, told) {
     const what = unlike && state.difference && !old ? "difference.png" : "machine.png";
     if (state.picture) image.show(address(k + 1 + "/" + what, state.picture));
     else image.show("");
-    const which = two ? run.target : "The machine";
-    image.image.alt = unlike ? "Where the picture of " + (two ? run.target : "the machine") + " is unlike the native one: darker in red, lighter in blue"
+    const which = two ? name : "The machine";
+    image.image.alt = unlike ? "Where the picture of " + (two ? name : "the machine") + " is unlike the native one: darker in red, lighter in blue"
       : which + "’s picture, " + state.size.join(" by ") + " pixels";
-    const waits = shown.panels.some((p) => p.frontier.stage === "running") ? "waits for the search" : "waits";
-    let said = wrong ? "waits for a right scene" : old ? waits : stages[state.stage];
+    let said = wrong ? "waits for a right scene" : old ? waitsFor(shown) : stages[state.stage];
     if (state.stage === "running" && !old) said = "running, row " + state.rows + " of " + state.size[1];
     if (state.stage === "done" && !old) said = state.size.join(" × ");
     say(id("machine-said"), said);
@@ -110,16 +110,17 @@ export function panel(k, machines, told) {
 
   return {
     // Shows its run, or that there is none.
-    show(shown, run, two) {
+    show(shown, runs) {
+      const run = runs[k];
       showMenus(run);
       figure.hidden = facts.hidden = !run;
-      last = run && [shown, run, two];
+      last = run && [shown, runs];
       if (run) showMachine(...last);
-      points.show(shown.panels[k].frontier, run, two, shown);
+      points.show(shown.panels[k].frontier, run, run && runs.length > 1 ? machineName(runs, k) : "", shown);
       const ready = shown.native.stage === "done";
       for (const name of ["costs", "build"]) place(name).disabled = !ready;
-      const { machine, frontier: known } = shown.panels[k];
-      return Boolean(run) && (busy.includes(machine.stage) || known.stage === "running" || known.waits);
+      const { machine, frontier: known, waits } = shown.panels[k];
+      return Boolean(run) && (busy.includes(machine.stage) || known.stage === "running" || known.waits || waits.costs || waits.build);
     },
   };
 }

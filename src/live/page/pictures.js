@@ -71,6 +71,12 @@ export function say(id, text) {
   if (at.textContent !== text) at.textContent = text;
 }
 
+// A machine's name in titles; where both are the same, the second says which it is.
+export const machineName = (runs, k) => runs[k].target + (k && runs[0].target === runs[k].target ? ", beside it" : "");
+
+// What something waits for.
+export const waitsFor = (shown) => (shown.panels.some((p) => p.frontier.stage === "running") ? "waits for the search" : "waits for the machine");
+
 export function showNative(shown) {
   const state = shown.native;
   const frame = place("native-frame");

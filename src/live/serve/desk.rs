@@ -3,12 +3,16 @@
 //! A new wish stops what works for an older one. Each change of what is shown has a number,
 //! by which a page asks for what it has not seen.
 
+mod chosen;
+
 use super::file::SceneFile;
 use super::queue::{Errand, Queue};
+use super::searched::Searched;
 use crate::interrupt::Job;
-use crate::live::board::{Board, Pictures, Task, Views, Wish};
+use crate::live::board::{Board, Pictures, Task, Wish};
+use crate::live::frontier;
 use crate::live::run::{MOST, Run};
-use crate::live::shown::{Chosen, ChosenRun, File, Frontier, Panel, Shown, Stage};
+use crate::live::shown::{File, Panel, Shown, Stage, Waits};
 use crate::scene::Scene;
 use slowlight_compiler::targets::Target;
 use std::collections::BTreeMap;
@@ -45,6 +49,10 @@ struct Inner {
     /// The last number of a wish or a run.
     last: u64,
     queue: Queue,
+    /// How often other files that the scene uses were others.
+    files: u64,
+    /// What each machine's frontier is of, where there is one.
+    searched: [Option<Searched>; MOST],
     ends: bool,
 }
 
@@ -92,6 +100,8 @@ impl Desk {
             ready: None,
             last: 1,
             queue: Queue::new(),
+            files: 0,
+            searched: Default::default(),
             ends: false,
         };
         inner.chosen("file");
@@ -140,6 +150,7 @@ impl Desk {
             (whole, other) = (true, true);
         }
         let by = by.unwrap_or_else(|| inner.shown.text.by.clone());
+        inner.files += u64::from(change.files);
         if whole {
             inner.wish.serial = serial;
             inner.drawing.stop();
@@ -196,9 +207,21 @@ impl Desk {
 
     fn seen(&self, mut inner: MutexGuard<'_, Inner>) {
         inner.version += 1;
-        let Inner { queue, shown, .. } = &mut *inner;
-        for (k, panel) in shown.panels.iter_mut().enumerate() {
+        let Inner {
+            queue,
+            shown: Shown { panels, params, .. },
+            wish,
+            files,
+            searched,
+            ..
+        } = &mut *inner;
+        for (k, (panel, of)) in panels.iter_mut().zip(searched).enumerate() {
             panel.frontier.waits = queue.has((Task::Tune, k));
+            panel.frontier.stale = of.is_some() && *of != Searched::of(wish, params, *files, k);
+            panel.waits = Waits {
+                costs: queue.has((Task::Costs, k)),
+                build: queue.has((Task::Build, k)),
+            };
         }
         let version = inner.version;
         drop(inner);
@@ -289,6 +312,16 @@ impl Desk {
                         continue;
                     };
                     let job = inner.queue.begin((task, panel), run.serial);
+                    if task == Task::Tune {
+                        // Before anything else is chosen: from here on it is seen, and stopped.
+                        frontier::begun(&mut inner.shown, &run);
+                        let Inner {
+                            wish, shown, files, ..
+                        } = &*inner;
+                        let of = Searched::of(wish, &shown.params, *files, panel);
+                        inner.searched[panel] = of;
+                    }
+                    self.seen(inner);
                     return Some(Errand {
                         task,
                         run,
@@ -304,23 +337,6 @@ impl Desk {
             };
             inner = waited.unwrap_or_else(|inner| inner);
         }
-    }
-
-    /// The file's text has changed on disk; where the page's was not saved, that is only said.
-    /// `force` takes it all the same.
-    pub fn file_changed(&self, text: &str, was: &str, force: bool) {
-        let unsaved = *self.wanted().text != *was;
-        if unsaved && !force {
-            return self.show(|shown, _| shown.file.elsewhere = true);
-        }
-        self.wish(Change {
-            text: Some((text.to_owned(), "file".to_owned())),
-            ..Change::default()
-        });
-        self.show(|shown, _| {
-            shown.file.elsewhere = false;
-            shown.file.wrong = None;
-        });
     }
 }
 
@@ -342,56 +358,5 @@ impl Board for Desk {
         if now.is_some_and(|now| now.serial == run.serial) {
             self.change(inner, change);
         }
-    }
-}
-
-impl Inner {
-    /// Takes machines, all as if they were new (`whole`) or only those that are others than
-    /// before; what was begun for the old ones is in vain. Where text, values or files are
-    /// others (`other`), what accuracy costs is known of an older scene alone.
-    fn runs(&mut self, mut runs: Vec<Run>, serial: u64, (whole, other): (bool, bool)) {
-        runs.truncate(MOST);
-        for (panel, run) in runs.iter_mut().enumerate() {
-            run.panel = panel;
-            let before = self.wish.runs.get(panel);
-            let same = before.filter(|before| !whole && before.is_like(run));
-            run.serial = same.map_or(serial, |before| before.serial);
-        }
-        let before = std::mem::replace(&mut self.wish.runs, runs);
-        for panel in 0..MOST {
-            let (now, before) = (self.wish.runs.get(panel), before.get(panel));
-            let Some(now) = now else {
-                self.shown.panels[panel] = Panel::default();
-                self.pictures.machines[panel] = Views::default();
-                self.queue.no_more(panel, |_| true);
-                continue;
-            };
-            if before.is_some_and(|before| before.serial == now.serial) {
-                continue;
-            }
-            let same = !other && before.is_some_and(|before| now.has_frontier_of(before));
-            let frontier = &mut self.shown.panels[panel].frontier;
-            match before.is_some_and(|before| before.target.name == now.target.name) {
-                true => frontier.stale |= !same,
-                // None of its points can be had there.
-                false => *frontier = Frontier::default(),
-            }
-            // A search goes on while others of its points are looked at.
-            self.queue
-                .no_more(panel, |task| whole || !same || task != Task::Tune);
-            self.queue.ask((Task::Run, panel), now.serial);
-        }
-    }
-
-    /// What was chosen is shown.
-    fn chosen(&mut self, by: &str) {
-        let wish = &self.wish;
-        self.shown.text.revision = self.revision;
-        by.clone_into(&mut self.shown.text.by);
-        self.shown.chosen = Chosen {
-            serial: wish.serial,
-            set: wish.set.clone(),
-            runs: wish.runs.iter().map(ChosenRun::from).collect(),
-        };
     }
 }

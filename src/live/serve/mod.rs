@@ -7,6 +7,7 @@ mod http;
 mod page;
 mod queue;
 mod routes;
+mod searched;
 mod watching;
 mod workers;
 

@@ -43,9 +43,13 @@ impl Queue {
         }
     }
 
-    /// Something is to be done for a run of such a number, unless just that is being done.
+    /// Something is to be done for a run of such a number, unless just that is being done: a
+    /// search is of any number, as it goes on only while it would be the same.
     pub fn ask(&mut self, place: Place, serial: u64) {
-        if self.doing != Some((place, serial)) && !self.has(place) {
+        let (of, number) = self.doing.unzip();
+        let same = number == Some(serial) || place.0 == Task::Tune;
+        let doing = of == Some(place) && same && !self.job.is_stopped();
+        if !doing && !self.has(place) {
             self.waiting.push(place);
         }
         // Whoever asked for more than runs waits for these.
@@ -114,6 +118,14 @@ mod tests {
         assert!(!job.is_stopped());
         queue.no_more(0, |_| true);
         assert!(job.is_stopped());
-        assert_eq!((queue.take(), queue.take()), (Some((Task::Run, 1)), None));
+        assert!(!queue.has((Task::Tune, 0)));
+        // What was stopped is done again, though its worker has not come back yet.
+        queue.ask((Task::Run, 0), 1);
+        let next = [queue.take(), queue.take(), queue.take()];
+        assert_eq!(next, [Some((Task::Run, 1)), Some((Task::Run, 0)), None]);
+        // A search that goes on is not asked for twice, whatever its run's number is now.
+        queue.begin((Task::Tune, 0), 1);
+        queue.ask((Task::Tune, 0), 2);
+        assert!(queue.is_empty());
     }
 }

@@ -146,7 +146,12 @@ pub fn posted(desk: &Desk, path: &str, body: &[u8]) -> Answer {
         "reload" => done(|| watching::reload(desk, true)),
         "stop" => done(|| desk.stop()),
         "run" => done(|| {
-            desk.wish(Change::default());
+            // Files that nobody watches are read again, and end a search of what they were.
+            let files = desk.file().is_any_stale();
+            desk.wish(Change {
+                files,
+                ..Change::default()
+            });
         }),
         "costs" => of(body, |panel| desk.ask(Task::Costs, panel)),
         "build" => of(body, |panel| desk.ask(Task::Build, panel)),

@@ -38,10 +38,10 @@ pub fn watch(desk: &Arc<Desk>) -> Option<Debouncer<RecommendedWatcher>> {
 /// Reads the file again; with `force` its text replaces one that was not saved.
 pub fn reload(desk: &Desk, force: bool) {
     match desk.file().again() {
-        Ok(Some((text, was))) => desk.file_changed(&text, &was, force),
+        Ok(Some((text, was))) => changed(desk, &text, &was, force),
         Ok(None) if force => {
             let text = desk.file().text();
-            desk.file_changed(&text, &text, true);
+            changed(desk, &text, &text, true);
         }
         // Perhaps again what it was before it could not be read.
         Ok(None) => {
@@ -53,4 +53,21 @@ pub fn reload(desk: &Desk, force: bool) {
             desk.show(|shown, _| (shown.file.wrong, shown.file.saved) = (Some(why), false));
         }
     }
+}
+
+/// The file's text has changed on disk; where the page's was not saved, that is only said.
+/// `force` takes it all the same.
+fn changed(desk: &Desk, text: &str, was: &str, force: bool) {
+    let unsaved = *desk.wanted().text != *was;
+    if unsaved && !force {
+        return desk.show(|shown, _| shown.file.elsewhere = true);
+    }
+    desk.wish(Change {
+        text: Some((text.to_owned(), "file".to_owned())),
+        ..Change::default()
+    });
+    desk.show(|shown, _| {
+        shown.file.elsewhere = false;
+        shown.file.wrong = None;
+    });
 }
