@@ -99,10 +99,6 @@ impl Extent {
     }
 }
 
-fn width(range: Range) -> f64 {
-    range.hi - range.lo
-}
-
 /// One of a box's faces.
 #[derive(Clone, Copy)]
 struct Face {
@@ -166,18 +162,17 @@ impl Search<'_, '_> {
         region
     }
 
-    /// Whether the formula is proved to be above the level everywhere in a region, which is
-    /// halved where it is widest for such widths.
-    fn is_empty(&mut self, region: [Range; 3], widths: [f64; 3], deep: u32) -> bool {
+    /// Whether the formula is proved to be above the level everywhere in a region.
+    fn is_empty(&mut self, region: [Range; 3], deep: u32) -> bool {
         if self.of.left() == 0 {
             return false;
         }
         if self.of.of(region).lo > self.level {
             return true;
         }
-        let part = |k: usize| width(region[k]) / widths[k];
-        let finite = (0..3).filter(|k| width(region[*k]).is_finite());
-        let Some(axis) = finite.max_by(|a, b| part(*a).total_cmp(&part(*b))) else {
+        let width = |k: usize| region[k].hi - region[k].lo;
+        let finite = (0..3).filter(|k| width(*k).is_finite());
+        let Some(axis) = finite.max_by(|a, b| width(*a).total_cmp(&width(*b))) else {
             return false;
         };
         let middle = |range: Range| (range.lo + range.hi) / 2.0;
@@ -189,9 +184,7 @@ impl Search<'_, '_> {
         let mut halves = [region; 2];
         halves[0][axis] = Range::new(region[axis].lo, at[axis].lo);
         halves[1][axis] = Range::new(at[axis].lo, region[axis].hi);
-        halves
-            .into_iter()
-            .all(|half| self.is_empty(half, widths, deep - 1))
+        halves.into_iter().all(|half| self.is_empty(half, deep - 1))
     }
 
     /// Finds a face by half-spaces.
@@ -206,8 +199,7 @@ impl Search<'_, '_> {
         let inward = (NEAR..=FAR).map(|k| -power(k));
         let mut found = None;
         for place in outward.chain([0.0]).chain(inward) {
-            if place < least || !self.is_empty(self.region(face, place, f64::INFINITY), [1.0; 3], 0)
-            {
+            if place < least || !self.is_empty(self.region(face, place, f64::INFINITY), 0) {
                 break;
             }
             found = Some(place);
@@ -217,8 +209,7 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Finds all faces by cubes, each half of the one before. What is known of an axis, as of
-    /// that about which a shape is twisted, is halved as often as the others.
+    /// Finds all faces by cubes, each half of the one before.
     fn cubes(&mut self) {
         for k in (NEAR..=FAR).rev() {
             let half = f64::from(k).exp2();
@@ -235,9 +226,7 @@ impl Search<'_, '_> {
                 };
                 let all = region[k / 2];
                 region[k / 2] = side.meet(all);
-                side.lo >= all.hi
-                    || side.hi <= all.lo
-                    || self.is_empty(region, region.map(width), COARSE)
+                side.lo >= all.hi || side.hi <= all.lo || self.is_empty(region, COARSE)
             });
             if !is_empty {
                 return;
@@ -266,7 +255,7 @@ impl Search<'_, '_> {
                 place.abs().max(1.0)
             };
             let to = place - part * width;
-            if self.is_empty(self.region(face, to, place), [1.0; 3], FINE) {
+            if self.is_empty(self.region(face, to, place), FINE) {
                 self.put(face, to);
                 part = if is_growing { 2.0 * part } else { part };
                 if part < 1.0 {

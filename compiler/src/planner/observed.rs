@@ -11,7 +11,7 @@ mod needed;
 mod seen;
 
 use crate::homes::{names, single_use};
-use crate::ir::graph::{Graph, NodeId};
+use crate::ir::graph::{Graph, Node, NodeId};
 use crate::ir::tree::{Block, Origin, Statement, Tree};
 use crate::plan::Plan;
 use crate::planner::PlannedScene;
@@ -19,8 +19,9 @@ use rayon::prelude::*;
 use seen::{Seen, Way};
 use slowlight_runtime_bbc::{RUNTIME, guards};
 
-/// How many statements may run to observe a picture: some seconds' worth.
-const STATEMENTS: u64 = 500_000_000;
+/// How many statements may run to observe a picture: five times what a BBC Micro carries out in
+/// the three hours of the bot, in which a statement takes about 2,500 cycles.
+const STATEMENTS: u64 = 50_000_000;
 
 /// Into how many parts a picture is cut, for threads to take.
 const SHARES: usize = 16;
@@ -164,7 +165,7 @@ fn cheaper(plan: &mut Plan, seen: &Seen, id: NodeId) {
 
 /// Bounds a table's indices by what they were seen to be.
 fn tighten(plan: &mut Plan, seen: &Seen, id: NodeId) {
-    let crate::ir::graph::Node::Lookup { column, row, .. } = plan.graph.node(id) else {
+    let Node::Lookup { column, row, .. } = plan.graph.node(id) else {
         return;
     };
     let Some(args) = plan.ranges.args.get_mut(id.0 as usize) else {
@@ -190,7 +191,6 @@ fn substitute(plan: &mut Plan, seen: &Seen) {
         let same = seen.same.get(at).copied().unwrap_or([false; 2]);
         // What a loop carries is another value in the next turn.
         let stays = |id: &NodeId| {
-            use crate::ir::graph::Node;
             let node = graph.node(*id);
             let kept = matches!(node, Node::Apply(..) | Node::Lookup { .. } | Node::Axis(_));
             kept || matches!(

@@ -1,24 +1,3 @@
-; The product of two numbers of 24 bits, a in a, x and y (high), b in arg: its upper 32 bits
-; in prod+2, prod+3, prod+4 and a (high). Of what is below only the upper bytes of a0 b1 and
-; a1 b0 are added, so it is a few of the 32 bits' units off.
-product24:
-        sta sum_lo          ; (sum_lo),y = f(a0 + y), (dif_lo),y = f(a0 - y)
-        sta sum_hi
-        eor #$ff
-        sta dif_lo
-        sta dif_hi
-        stx sum1_lo         ; the same of a1
-        stx sum1_hi
-        txa
-        eor #$ff
-        sta dif1_lo
-        sta dif1_hi
-        sty sum2_lo         ; and of a2
-        sty sum2_hi
-        tya
-        eor #$ff
-        sta dif2_lo
-        sta dif2_hi
         ldy arg+1
         sec
         lda (sum_hi),y      ; a0 b1 / 256; no product borrows, so the carry stays

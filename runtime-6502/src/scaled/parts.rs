@@ -273,7 +273,11 @@ pub(crate) const ALL: &[Part] = &[
     ),
     part(
         "product24",
-        include_str!("../../asm/scaled24/product.asm"),
+        concat!(
+            include_str!("../../asm/scaled24/product_entry.asm"),
+            include_str!("../../asm/scaled24/factor.asm"),
+            include_str!("../../asm/scaled24/product.asm")
+        ),
         &["squares24"],
         245,
     ),
@@ -291,7 +295,11 @@ pub(crate) const ALL: &[Part] = &[
     ),
     part(
         "whole24",
-        include_str!("../../asm/scaled24/whole.asm"),
+        concat!(
+            include_str!("../../asm/scaled24/whole_entry.asm"),
+            include_str!("../../asm/scaled24/factor.asm"),
+            include_str!("../../asm/scaled24/whole.asm")
+        ),
         &["product24"],
         164,
     ),

@@ -35,8 +35,9 @@ pub struct Code<'p> {
     /// FOR loops that are left by a jump, still open: the NEXT of one around them, which says
     /// its name, ends them as well.
     pub open: u32,
-    /// What is around the statements that are written and ends no such loop: loops by GOTO, a
-    /// row, whose NEXT says no name, the picture.
+    /// Whether there is one: what is written is a pixel's.
+    pub closes: bool,
+    /// Loops by GOTO around what is written, which end none.
     pub gotos: u32,
     /// What loops count by themselves.
     pub counted: Counted,
@@ -67,7 +68,8 @@ impl<'p> Code<'p> {
             },
             loops: 0,
             open: 0,
-            gotos: 1,
+            closes: false,
+            gotos: 0,
             counted: Counted::default(),
             labels: Labels::default(),
             ends: None,

@@ -261,10 +261,9 @@ pub(super) fn picture(
     if let Some(refined) = &refined {
         refined.receive(code);
     }
-    // The NEXT of the columns ends what is left open.
-    code.gotos -= 1;
+    code.closes = true;
     code.block(&plan.tree.pixel);
-    code.gotos += 1;
+    code.closes = false;
     code.known = None;
     let posted = plan.toot && plan.plot && spread.is_none() && refined.is_none();
     if !posted {

@@ -191,7 +191,7 @@ impl Code<'_> {
     /// Whether a FOR loop that is left may stay open: what is around it ends it, and there is
     /// room for ten.
     fn may_stay_open(&self) -> bool {
-        let alone = self.gotos == 0 && self.values.plan.tree.subroutines.is_empty();
+        let alone = self.closes && self.gotos == 0 && self.values.plan.tree.subroutines.is_empty();
         self.values.style == Style::Toot && alone && self.open < OPEN
     }
 
