@@ -4,6 +4,13 @@
 use crate::parts::{part, terms};
 use slowlight_routine::Part;
 
+/// A text for 24 bits, of files one behind the other.
+macro_rules! of24 {
+    ($($name:literal),+) => {
+        concat!($(include_str!(concat!("../../asm/scaled24/", $name, ".asm"))),+)
+    };
+}
+
 /// In the order in which they stand in a program, behind those of all formats.
 pub(crate) const ALL: &[Part] = &[
     part(
@@ -267,75 +274,38 @@ pub(crate) const ALL: &[Part] = &[
     ),
     part(
         "squares24",
-        include_str!("../../asm/scaled24/squares.asm"),
+        of24!("squares"),
         &["squares", "scaled24_page"],
         25,
     ),
     part(
         "product24",
         concat!(
-            include_str!("../../asm/scaled24/product_entry.asm"),
-            include_str!("../../asm/scaled24/factor.asm"),
-            include_str!("../../asm/scaled24/product.asm")
+            "; The product of two numbers of 24 bits, a in a, x and y (high), b in arg: its upper 32 bits\n; in prod+2, prod+3, prod+4 and a (high). Of what is below only the upper bytes of a0 b1 and\n; a1 b0 are added, so it is a few of the 32 bits' units off.\nproduct24:\n",
+            of24!("factor", "product")
         ),
         &["squares24"],
         245,
     ),
-    part(
-        "square24",
-        include_str!("../../asm/scaled24/square.asm"),
-        &["squares24"],
-        169,
-    ),
-    part(
-        "up24",
-        include_str!("../../asm/scaled24/up.asm"),
-        &["scaled24_page"],
-        88,
-    ),
+    part("square24", of24!("square"), &["squares24"], 169),
+    part("up24", of24!("up"), &["scaled24_page"], 88),
     part(
         "whole24",
         concat!(
-            include_str!("../../asm/scaled24/whole_entry.asm"),
-            include_str!("../../asm/scaled24/factor.asm"),
-            include_str!("../../asm/scaled24/whole.asm")
+            "; The product of two numbers of 24 bits, a in a, x and y (high), b in arg: all of it but its\n; lowest byte, in prod+1 to prod+4 and a (high).\nwhole24:\n",
+            of24!("factor", "whole")
         ),
         &["product24"],
         164,
     ),
-    part(
-        "round40",
-        include_str!("../../asm/scaled24/round40.asm"),
-        &["up24"],
-        57,
-    ),
-    part(
-        "lower32",
-        include_str!("../../asm/scaled24/lower.asm"),
-        &["scaled24_page"],
-        53,
-    ),
-    part(
-        "hold24",
-        include_str!("../../asm/scaled24/narrow.asm"),
-        &["right32"],
-        94,
-    ),
-    part(
-        "widen24",
-        include_str!("../../asm/scaled24/widen.asm"),
-        &["widen_both"],
-        51,
-    ),
-    part(
-        "modulo24",
-        include_str!("../../asm/scaled24/modulo.asm"),
-        &["widen24", "modulo"],
-        8,
-    ),
+    part("round40", of24!("round40"), &["up24"], 57),
+    part("lower32", of24!("lower"), &["scaled24_page"], 53),
+    part("hold24", of24!("narrow"), &["right32"], 94),
+    part("widen24", of24!("widen"), &["widen_both"], 51),
+    part("modulo24", of24!("modulo"), &["widen24", "modulo"], 8),
     part(
         "exact24",
-        include_str!("../../asm/scaled24/exact.asm"),
+        of24!("exact"),
         &["multiply", "sign", "hold24"],
         156,
     ),
@@ -358,15 +328,10 @@ pub(crate) const ALL: &[Part] = &[
     terms("roots24_step0", || super::long::root_bytes(3), 192),
     terms("roots24_step1", || super::long::root_bytes(4), 192),
     terms("roots24_inverse", super::long::inverse_bytes, 192),
-    part(
-        "refine24",
-        include_str!("../../asm/scaled24/refine.asm"),
-        &["squares24"],
-        302,
-    ),
+    part("refine24", of24!("refine"), &["squares24"], 302),
     part(
         "reciprocal24",
-        include_str!("../../asm/scaled24/reciprocal.asm"),
+        of24!("reciprocal"),
         &[
             "refine24",
             "reciprocals24_0",
@@ -377,21 +342,16 @@ pub(crate) const ALL: &[Part] = &[
         ],
         142,
     ),
-    part(
-        "one_over24",
-        include_str!("../../asm/scaled24/one_over.asm"),
-        &["reciprocal24"],
-        142,
-    ),
+    part("one_over24", of24!("one_over"), &["reciprocal24"], 142),
     part(
         "divide24",
-        include_str!("../../asm/scaled24/divide.asm"),
+        of24!("divide"),
         &["one_over24", "product24"],
         200,
     ),
     part(
         "root24",
-        include_str!("../../asm/scaled24/root.asm"),
+        of24!("root"),
         &[
             "refine24",
             "roots24_0",
