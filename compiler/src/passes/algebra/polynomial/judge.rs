@@ -9,6 +9,7 @@
 
 use super::New;
 use super::key::{Keys, near, shared};
+use super::wholes::{floored, inexact};
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
 use crate::passes::algebra::polynomial::rounding_samples::{Follow, Nodes, Rounded, Sample};
@@ -96,6 +97,8 @@ pub struct Followed {
     values: Mutex<FxHashMap<NodeId, Known>>,
     /// Whether a form is good enough for a value, by its number ([`Keys`]).
     judged: Mutex<FxHashMap<(NodeId, bool, u64), bool>>,
+    /// Which values a `floor` needs as they are.
+    floored: OnceLock<Vec<bool>>,
 }
 
 /// What is known of a value.
@@ -158,6 +161,11 @@ impl Followed {
         all.entry(id).or_insert_with(none).clone()
     }
 
+    /// Whether a `floor` needs a value as it is.
+    fn floors(&self, graph: &Graph, id: NodeId) -> bool {
+        self.floored.get_or_init(|| floored(graph))[id.0 as usize]
+    }
+
     /// What a form was judged to be, if it was; else what it is.
     fn judged(&self, key: (NodeId, bool, u64), judge: impl FnOnce() -> bool) -> bool {
         let held = || self.judged.lock().unwrap_or_else(PoisonError::into_inner);
@@ -200,6 +208,10 @@ impl Judge<'_> {
         made: NodeId,
         where_equal: bool,
     ) -> bool {
+        let breaks = || inexact(b, made) && !inexact(self.graph, old);
+        if self.followed.floors(self.graph, old) && breaks() {
+            return false;
+        }
         let known = self.followed.of(self.graph, old, self.samples.len());
         let judge = || self.judged_at(&known, (b, new), (old, made), where_equal);
         match Keys::new(b, new, &known.shared).of(made) {

@@ -40,6 +40,7 @@ mod span;
 mod span_tests;
 #[cfg(test)]
 mod tests;
+mod wholes;
 
 use super::formula::Found;
 use crate::analysis::range::Ranges;
@@ -55,8 +56,7 @@ use arithmetic::multiplied;
 pub use decided::decided;
 use extent::Extents;
 pub(crate) use form::Forms;
-use form::scaled;
-use form::{Form, Part};
+use form::{Form, Part, scaled};
 pub use halved::Proofs;
 use judge::cycles;
 pub(crate) use judge::{Followed, Judge, end};

@@ -244,3 +244,18 @@ fn what_is_surely_above_0_is_so_by_a_margin() {
     assert!(!sure(0.1)); // Less than a part of 144 in 1000.
     assert!(!surely(&x, &|_| Range::ALL, 1e-3));
 }
+
+#[test]
+fn quotients_under_a_floor_are_exact_where_they_are_whole() {
+    for draw in [
+        "floor(x / 3) mod 8",
+        "floor((x - 64) / 7 - y / 5) mod 8",
+        "floor((x / 6) mod 5)",
+        "round(x / 6) mod 8",
+    ] {
+        let inks = "black, red, green, yellow, blue, magenta, cyan, white";
+        let source = format!("image 160 x 64 inks {inks}; draw (x, y) = ink({draw});");
+        let (graph, fast, _) = planned(&source, &[]);
+        assert_eq!(wrong(&graph, &fast), 0, "{draw}");
+    }
+}
