@@ -225,6 +225,17 @@ impl Op {
         self.args().len()
     }
 
+    /// Whether its two arguments may change places.
+    pub fn commutes(self) -> bool {
+        use Op::*;
+        let reals = matches!(self, Add | Mul | Min | Max | Equal);
+        reals
+            || matches!(
+                self,
+                IntAdd | IntMul | IntMin | IntMax | IntEqual | BitAnd | BitOr | BitXor
+            )
+    }
+
     /// An operation by its printed name.
     pub fn named(name: &str) -> Option<Op> {
         Op::EVERY.iter().copied().find(|op| op.name() == name)

@@ -225,7 +225,36 @@ impl Builder {
         }
         let first = wide[0];
         let second = wide.get(1).copied().unwrap_or(first);
+        if let Some(known) = self.same(op, [first, second], span) {
+            return known;
+        }
         self.add(Node::Apply(op, [first, second]), op.result(), span)
+    }
+
+    /// An operation's value where it is there in another form: with its operands the other way
+    /// round, as derivatives of products have it, or a product but for its sign, as the two
+    /// faces of a slab have it.
+    fn same(&mut self, op: Op, [a, b]: [NodeId; 2], span: Span) -> Option<NodeId> {
+        if !op.commutes() {
+            return None;
+        }
+        let either = |own: &Builder, a, b| {
+            let known = own.find(&Node::Apply(op, [a, b]));
+            known.or_else(|| own.find(&Node::Apply(op, [b, a])))
+        };
+        if let Some(known) = either(self, a, b) {
+            return Some(known);
+        }
+        if op != Op::Mul {
+            return None;
+        }
+        let opposite = |own: &Builder, id| match own.node(id) {
+            Node::Apply(Op::Neg, [of, _]) => Some(of),
+            _ => own.find(&Node::Apply(Op::Neg, [id, id])),
+        };
+        let other = |own: &Builder, a, b| either(own, a, opposite(own, b)?);
+        let known = other(self, a, b).or_else(|| other(self, b, a))?;
+        Some(self.apply(Op::Neg, &[known], span))
     }
 
     /// The value of an operation on constants.

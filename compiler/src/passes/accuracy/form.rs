@@ -98,7 +98,7 @@ impl Search<'_> {
                         true
                     }
                     (Node::Apply(found, [a, b]), [f, g]) if found == *op => {
-                        if commutes(*op) && a != b {
+                        if op.commutes() && a != b {
                             let held = self.bound.0.len();
                             let mut straight = todo.clone();
                             straight.extend([(g, b), (f, a)]);
@@ -121,10 +121,6 @@ impl Search<'_> {
         }
         true
     }
-}
-
-fn commutes(op: Op) -> bool {
-    matches!(op, Op::Add | Op::Mul)
 }
 
 /// Where a rule puts what it makes.
