@@ -104,6 +104,12 @@ const USUAL: &[Part] = &[
         &["divide_signed"],
         91,
     ),
+    part(
+        "word_divide",
+        include_str!("../asm/word_divide.asm"),
+        &["zero_page"],
+        49,
+    ),
     part("root", include_str!("../asm/root.asm"), &["zero_page"], 317),
     part("convert", include_str!("../asm/convert.asm"), &["sign"], 80),
     part(

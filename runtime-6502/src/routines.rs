@@ -66,6 +66,16 @@ fn of_byte(args: &[Range], _: Range) -> bool {
     args.first().is_some_and(|a| a.within(0.0, 255.0))
 }
 
+/// Ints from 0 to these.
+fn words(args: &[Range], most: [f64; 2]) -> bool {
+    (args.iter().zip(most)).all(|(of, most)| of.within(0.0, most))
+}
+
+/// An int of two bytes from 0 on, and one of a byte above 0.
+fn word_by_byte(args: &[Range], _: Range) -> bool {
+    words(args, [65535.0, 255.0]) && args.get(1).is_some_and(|by| by.lo >= 1.0)
+}
+
 /// An int that 16.16 holds.
 fn from_short(args: &[Range], _: Range) -> bool {
     args.first().is_some_and(|a| a.within(-32768.0, 32767.0))
@@ -181,17 +191,28 @@ pub(crate) const INTS: &[Routine] = &[
     routine!("int_twice" IntMul(I, I) -> I, t::TWICE, [], with!(1 = 2.0, fits_int), EXACT, |a, _b| a.wrapping_mul(2), 32, 20),
     routine!("int_four_times" IntMul(I, I) -> I, t::FOUR_TIMES, [], with!(1 = 4.0, fits_int), EXACT, |a, _b| a.wrapping_mul(4), 52, 28),
     routine!("byte_product" IntMul(I, I) -> I, t::BYTE_PRODUCT, ["squares"], bytes, EXACT, |a, b| a.wrapping_mul(b), 64, 39),
+    routine!("word_by_byte" IntMul(I, I) -> I, t::WORD_BY_BYTE, ["squares"], |args, _| words(args, [65535.0, 255.0]), EXACT, |a, b| a.wrapping_mul(b), 105, 58),
+    routine!("byte_by_word" IntMul(I, I) -> I, t::BYTE_BY_WORD, ["squares"], |args, _| words(args, [255.0, 65535.0]), EXACT, |a, b| a.wrapping_mul(b), 105, 58),
     routine!("int_mul" IntMul(I, I) -> I, "int_multiply", ["int_multiply"], everywhere, EXACT, |a, b| a.saturating_mul(b), 636, 51),
     routine!("byte_div_2" IntDiv(I, I) -> I, t::BYTE_HALF, [], with!(1 = 2.0, of_byte), EXACT, |a, _b| a >> 1, 23, 17),
     routine!("byte_div_4" IntDiv(I, I) -> I, t::BYTE_QUARTER, [], with!(1 = 4.0, of_byte), EXACT, |a, _b| a >> 2, 25, 18),
     routine!("byte_div_8" IntDiv(I, I) -> I, t::BYTE_EIGHTH, [], with!(1 = 8.0, of_byte), EXACT, |a, _b| a >> 3, 27, 19),
     routine!("byte_div_16" IntDiv(I, I) -> I, t::BYTE_SIXTEENTH, [], with!(1 = 16.0, of_byte), EXACT, |a, _b| a >> 4, 29, 20),
+    routine!("byte_div_32" IntDiv(I, I) -> I, t::BYTE_BY_32, [], with!(1 = 32.0, of_byte), EXACT, |a, _b| a >> 5, 31, 21),
+    routine!("byte_div_64" IntDiv(I, I) -> I, t::BYTE_BY_64, [], with!(1 = 64.0, of_byte), EXACT, |a, _b| a >> 6, 29, 21),
+    routine!("byte_div_128" IntDiv(I, I) -> I, t::BYTE_BY_128, [], with!(1 = 128.0, of_byte), EXACT, |a, _b| a >> 7, 27, 20),
     routine!("int_div_2" IntDiv(I, I) -> I, t::INT_HALF, [], with!(1 = 2.0), EXACT, |a, _b| a >> 1, 34, 22),
     routine!("int_div_4" IntDiv(I, I) -> I, t::INT_QUARTER, [], with!(1 = 4.0), EXACT, |a, _b| a >> 2, 59, 34),
     routine!("int_div_8" IntDiv(I, I) -> I, t::INT_EIGHTH, [], with!(1 = 8.0), EXACT, |a, _b| a >> 3, 84, 46),
     routine!("int_div_16" IntDiv(I, I) -> I, t::INT_SIXTEENTH, [], with!(1 = 16.0), EXACT, |a, _b| a >> 4, 109, 58),
+    routine!("int_div_32" IntDiv(I, I) -> I, t::INT_BY_32, [], with!(1 = 32.0), EXACT, |a, _b| a >> 5, 86, 46),
+    routine!("int_div_64" IntDiv(I, I) -> I, t::INT_BY_64, [], with!(1 = 64.0), EXACT, |a, _b| a >> 6, 64, 37),
+    routine!("int_div_128" IntDiv(I, I) -> I, t::INT_BY_128, [], with!(1 = 128.0), EXACT, |a, _b| a >> 7, 38, 26),
+    routine!("int_div_256" IntDiv(I, I) -> I, t::INT_BY_256, [], with!(1 = 256.0), EXACT, |a, _b| a >> 8, 29, 21),
+    routine!("word_div" IntDiv(I, I) -> I, "word_divide", ["word_divide"], word_by_byte, EXACT, |a, b| model::int_divide(a, b), 306, 51),
     routine!("int_div" IntDiv(I, I) -> I, "int_divide", ["int_divide"], everywhere, EXACT, |a, b| model::int_divide(a, b), 400, 51),
     routine!("int_mod_power" IntMod(I, I) -> I, t::MOD_POWER, [], by_small_power, EXACT, |a, b| a & (b.wrapping_sub(1) & 0xFF), 24, 17),
+    routine!("word_mod" IntMod(I, I) -> I, "word_modulo", ["word_divide"], word_by_byte, EXACT, |a, b| model::modulo(a, b), 326, 51),
     routine!("int_mod" IntMod(I, I) -> I, "modulo", ["modulo"], everywhere, EXACT, |a, b| model::modulo(a, b), 444, 51),
     routine!("and" BitAnd(I, I) -> I, t::AND, [], everywhere, EXACT, |a, b| a & b, 36, 24),
     routine!("or" BitOr(I, I) -> I, t::OR, [], everywhere, EXACT, |a, b| a | b, 36, 24),

@@ -198,6 +198,35 @@ pub(crate) const INT_QUARTER: &str = concat!(halve!(), again!());
 pub(crate) const INT_EIGHTH: &str = concat!(halve!(), again!(), again!());
 pub(crate) const INT_SIXTEENTH: &str = concat!(halve!(), again!(), again!(), again!());
 
+/// Argument 0 doubled and a byte down; the bits that it has below that are left, the first at the
+/// top, in y.
+macro_rules! down_but_one {
+    () => {
+        "
+    lda {0.0} | asl | tay | lda {0.1} | rol | sta {r.0} | lda {0.2} | rol | sta {r.1}
+    lda {0.3} | rol | sta {r.2} | lda #0 | adc #$ff | eor #$ff | sta {r.3}
+    "
+    };
+}
+
+/// The result doubled, with the next bit of those that are left in the accumulator.
+macro_rules! up {
+    () => {
+        "
+    asl | rol {r.0} | rol {r.1} | rol {r.2} | rol {r.3}
+    "
+    };
+}
+
+pub(crate) const INT_BY_32: &str = concat!(down_but_one!(), "tya |", up!(), up!());
+pub(crate) const INT_BY_64: &str = concat!(down_but_one!(), "tya |", up!());
+pub(crate) const INT_BY_128: &str = "
+    lda {0.0} | asl | lda {0.1} | rol | sta {r.0} | lda {0.2} | rol | sta {r.1}
+    lda {0.3} | rol | sta {r.2} | lda #0 | adc #$ff | eor #$ff | sta {r.3}";
+pub(crate) const INT_BY_256: &str = "
+    lda {0.1} | sta {r.0} | lda {0.2} | sta {r.1} | lda {0.3} | sta {r.2}
+    asl | lda #0 | adc #$ff | eor #$ff | sta {r.3}";
+
 /// The same of a byte.
 macro_rules! byte_shifted {
     ($shifts:literal) => {
@@ -213,6 +242,9 @@ pub(crate) const BYTE_HALF: &str = byte_shifted!("lsr");
 pub(crate) const BYTE_QUARTER: &str = byte_shifted!("lsr | lsr");
 pub(crate) const BYTE_EIGHTH: &str = byte_shifted!("lsr | lsr | lsr");
 pub(crate) const BYTE_SIXTEENTH: &str = byte_shifted!("lsr | lsr | lsr | lsr");
+pub(crate) const BYTE_BY_32: &str = byte_shifted!("lsr | lsr | lsr | lsr | lsr");
+pub(crate) const BYTE_BY_64: &str = byte_shifted!("asl | rol | rol | and #3");
+pub(crate) const BYTE_BY_128: &str = byte_shifted!("asl | lda #0 | rol");
 
 /// Argument 0 doubled, wrapping.
 macro_rules! double {
@@ -228,6 +260,21 @@ macro_rules! double {
 pub(crate) const BYTE_PRODUCT: &str = "~[+lda #0 | sta {r.k}]
     lda {0.0} | sta sum_lo | sta sum_hi | eor #$ff | sta dif_lo | sta dif_hi | ldy {1.0}
     sec | lda (sum_lo),y | sbc (dif_lo),y | sta {r.0} | lda (sum_hi),y | sbc (dif_hi),y [1| sta {r.k}]";
+/// The same of two bytes and one: of the first byte, and of the second that much higher.
+macro_rules! word_product {
+    ($word:literal, $byte:literal) => {
+        concat!(
+            "lda {", $byte, ".0} | sta sum_lo | sta sum_hi | eor #$ff | sta dif_lo | sta dif_hi
+            ldy {", $word, ".0} | sec | lda (sum_lo),y | sbc (dif_lo),y | tax
+            lda (sum_hi),y | sbc (dif_hi),y | sta low
+            ldy {", $word, ".1} | sec | lda (sum_lo),y | sbc (dif_lo),y | sta carried
+            lda (sum_hi),y | sbc (dif_hi),y | tay | stx {r.0}
+            clc | lda carried | adc low | sta {r.1} | tya | adc #0 | sta {r.2} | lda #0 | sta {r.3}"
+        )
+    };
+}
+pub(crate) const WORD_BY_BYTE: &str = word_product!("0", "1");
+pub(crate) const BYTE_BY_WORD: &str = word_product!("1", "0");
 pub(crate) const TWICE: &str = double!();
 pub(crate) const FOUR_TIMES: &str =
     concat!(double!(), "asl {r.0} | rol {r.1} | rol {r.2} | rol {r.3}");
