@@ -15,6 +15,9 @@ use slowlight_routine::Type;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
+/// How far apart the differences are that stand for a gradient which is none on the surface.
+const NEAR: f64 = 1.0 / 256.0;
+
 /// Three nodes that stand for a point's coordinates.
 pub(super) type Markers = [NodeId; 3];
 
@@ -93,15 +96,18 @@ impl<'a> Lower<'a> {
         p: Val,
         span: Span,
     ) -> Found<Option<Val>> {
-        let formula = match self.formula(shape, FacetKind::Implicit, span)? {
-            Some(found) => Some(found),
-            None => self.formula(shape, FacetKind::Dist, span)?,
+        let (formula, is_distance) = match self.formula(shape, FacetKind::Implicit, span)? {
+            Some(found) => (Some(found), false),
+            None => (self.formula(shape, FacetKind::Dist, span)?, true),
         };
         let Some(formula) = formula else {
             return Ok(None);
         };
-        if let Some(apart) = self.options.ways.differences {
-            let apart = Val::Node(self.real(apart.value(), span));
+        let asked = self.options.ways.differences.map(|apart| apart.value());
+        // Formats that cannot tell points so near stop before the surface.
+        let singular = || is_distance && self.options.offset <= NEAR && self.vanishes(&formula);
+        if let Some(apart) = asked.or_else(|| singular().then_some(NEAR)) {
+            let apart = Val::Node(self.real(apart, span));
             let args = vec![Val::Shape(shape.clone()), p, apart];
             return self.library("sloped", Ty::Shape, args, span).map(Some);
         }

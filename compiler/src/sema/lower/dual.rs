@@ -106,7 +106,7 @@ impl Lower<'_> {
     }
 
     /// The loop that a node belongs to, if it was made after the markers.
-    fn own_loop(&self, formula: &Formula, node: Node) -> Option<&Loop> {
+    pub(super) fn own_loop(&self, formula: &Formula, node: Node) -> Option<&Loop> {
         match node {
             Node::Carried { of, .. } | Node::Last { of, .. } | Node::Result { of, .. }
                 if of.0 >= formula.loops =>

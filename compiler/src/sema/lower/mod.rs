@@ -38,6 +38,7 @@ mod spread;
 mod steps;
 mod tables;
 mod value;
+mod vanishing;
 mod view;
 mod ways;
 

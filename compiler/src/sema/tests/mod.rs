@@ -7,6 +7,7 @@ mod compositions;
 mod each;
 mod hard;
 mod instances;
+mod normals;
 mod pictures;
 
 use crate::analysis::verify::verify;
