@@ -274,7 +274,11 @@ fn quickest(
         let first = known.first();
         let sure = !plan.is_made_small() && !first.is_some_and(|next| close(next) || quicker(next));
         if within && kept.is_none() && sure {
-            let why = Some(why(expected));
+            others.seen.extend(drafted(&known));
+            let why = Some(Why {
+                others,
+                ..why(expected)
+            });
             return Ok(Some(Chosen { plan, why }));
         }
         let now = Kept {
@@ -296,8 +300,7 @@ fn quickest(
             kept = within.then_some(now).or(kept);
         }
     }
-    let drafted = known.iter().filter(|one| one.cycles.is_finite());
-    others.seen.extend(drafted.map(|one| one.seen(one.wrong)));
+    others.seen.extend(drafted(&known));
     for one in &left {
         let need = one.need.as_ref().filter(|need| !need.fits());
         let tries = one.target.runtime.format;
@@ -318,4 +321,10 @@ fn quickest(
         }
         chosen
     }))
+}
+
+/// What is known of candidates that were not planned in earnest.
+fn drafted(known: &[Candidate]) -> impl Iterator<Item = (&'static str, f64, f64)> {
+    let drafted = known.iter().filter(|one| one.cycles.is_finite());
+    drafted.map(|one| one.seen(one.wrong))
 }

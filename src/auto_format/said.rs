@@ -7,6 +7,10 @@ use slowlight_compiler::planner::PlannedScene;
 /// pixels wrong.
 const QUICKER: f64 = 2.0;
 
+/// The same where the goal is kept, for a format that leaves it by little: of so many goals.
+const CLIFF: f64 = 4.0;
+const GOALS: f64 = 3.0;
+
 /// How many formats that do not fit are named.
 const NAMED: usize = 2;
 
@@ -45,18 +49,27 @@ impl Why {
     pub fn text(&self, plan: &PlannedScene) -> String {
         let ways = || fit::help(plan);
         let note = self.note(plan.runtime.format, plan.target.name, &ways);
-        match plan.graph.refinement {
-            Some(_) => format!("{note}; those that are not traced come on top, `run` counts all"),
-            None => note,
+        // Neither is told by pixels that are looked at one by one.
+        match (&plan.graph.refinement, &plan.graph.diffusion) {
+            (Some(_), _) => {
+                format!("{note}; those that are not traced come on top, `run` counts all")
+            }
+            (None, Some(_)) => format!(
+                "{note}; that is before errors are spread: a small one moves many dots after it, \
+                 `run` counts them all"
+            ),
+            (None, None) => note,
         }
     }
 
     fn note(&self, format: &str, target: &str, ways: &dyn Fn() -> String) -> String {
         let (wrong, goal) = shares(self.expected, self.goal);
         if self.expected <= self.goal {
+            let cliff = self.quicker(format, CLIFF, GOALS * self.goal);
+            let hint = cliff.map_or(String::new(), |quick| self.hint(quick));
             return format!(
                 "format {format}: about {wrong} of the pixels are wrong, of the {goal} that may be \
-                 (--error, --goal; --format for another)"
+                 (--error, --goal; --format for another){hint}"
             );
         }
         let large = self.others.large.iter();
@@ -67,14 +80,8 @@ impl Why {
              be: none that was tried{of_those_that_fit} is nearer (--error, --goal; --format for \
              another)"
         );
-        if let Some((quick, cycles, wrong)) = self.quicker(format) {
-            let more = shares(wrong, self.expected).0;
-            said.push_str(&format!(
-                "\n  {quick} is about {:.1} times as quick, with about {more} wrong: --format \
-                 {quick}, or --error {}",
-                self.unsearched / cycles,
-                allowing(wrong)
-            ));
+        if let Some(quick) = self.quicker(format, QUICKER, 2.0 * self.expected) {
+            said.push_str(&self.hint(quick));
         }
         if !large.is_empty() {
             let more = large.len().saturating_sub(NAMED);
@@ -92,10 +99,21 @@ impl Why {
         said
     }
 
-    /// The quickest of those that are much quicker and not much worse.
-    fn quicker(&self, taken: &str) -> Option<(&'static str, f64, f64)> {
+    /// A line on a format that is much quicker and not much worse.
+    fn hint(&self, (quick, cycles, wrong): (&str, f64, f64)) -> String {
+        let more = shares(wrong, self.expected).0;
+        format!(
+            "\n  {quick} is about {:.1} times as quick, with about {more} wrong: --format {quick}, \
+             or --error {}",
+            self.unsearched / cycles,
+            allowing(wrong)
+        )
+    }
+
+    /// The quickest of those that are so many times as quick, with so many pixels wrong at most.
+    fn quicker(&self, taken: &str, times: f64, most: f64) -> Option<(&'static str, f64, f64)> {
         let much = |(format, cycles, wrong): &(&str, f64, f64)| {
-            *format != taken && cycles * QUICKER <= self.unsearched && *wrong <= 2.0 * self.expected
+            *format != taken && cycles * times <= self.unsearched && *wrong <= most
         };
         let all = self.others.seen.iter().copied().filter(much);
         all.min_by(|a, b| a.1.total_cmp(&b.1))
@@ -164,5 +182,25 @@ mod tests {
             and 1 more
           what would help: less
         ");
+    }
+
+    #[test]
+    fn a_cliff_in_price_beside_the_goal_is_said() {
+        let others = Others {
+            seen: vec![("fixed16", 1000.0, 0.0105), ("log10", 500.0, 0.2)],
+            ..Others::default()
+        };
+        let why = |unsearched| Why {
+            goal: 0.01,
+            expected: 0.001,
+            unsearched,
+            others: others.clone(),
+        };
+        let nothing = || String::new();
+        insta::assert_snapshot!(why(13_000.0).note("real40", "m", &nothing), @r"
+        format real40: about 0.1% of the pixels are wrong, of the 1% that may be (--error, --goal; --format for another)
+          fixed16 is about 13.0 times as quick, with about 1.1% wrong: --format fixed16, or --error 2%
+        ");
+        assert!(!why(3_000.0).note("real40", "m", &nothing).contains("quick"));
     }
 }
