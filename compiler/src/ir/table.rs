@@ -34,15 +34,25 @@ impl Table {
         column: Option<Value>,
         row: Option<Value>,
     ) -> impl Iterator<Item = usize> + use<> {
-        let (width, height) = (self.width as usize, self.height as usize);
-        let all = |of: Option<Value>, many: usize| match of {
-            Some(of) => {
-                let at = (of.real().max(0.0) as usize).min(many.saturating_sub(1));
-                at..at + 1
-            }
-            None => 0..many,
+        let only = |of: Option<Value>| match of {
+            Some(of) => (of.real(), of.real()),
+            None => (f64::NEG_INFINITY, f64::INFINITY),
         };
-        let (columns, rows) = (all(column, width), all(row, height));
+        self.within(only(column), only(row))
+    }
+
+    /// The same where its column and its row are from so many to so many.
+    pub fn within(
+        &self,
+        columns: (f64, f64),
+        rows: (f64, f64),
+    ) -> impl Iterator<Item = usize> + use<> {
+        let (width, height) = (self.width as usize, self.height as usize);
+        let all = |(lo, hi): (f64, f64), many: usize| {
+            let at = |of: f64| (of.max(0.0) as usize).min(many.saturating_sub(1));
+            at(lo)..at(hi) + 1
+        };
+        let (columns, rows) = (all(columns, width), all(rows, height));
         let entries = self.entries.len();
         let row = move |row| columns.clone().map(move |column| row * width + column);
         rows.flat_map(row).filter(move |at| *at < entries)

@@ -318,11 +318,12 @@ impl Walk<'_> {
                 self.slack.cut(Type::Int, exact)
             }
             Node::Lookup { table, column, row } => {
-                self.note_args(id, [column, row].map(|id| self.read(id)));
-                match self.once.computed(id) {
+                let at = [column, row].map(|id| self.read(id));
+                match self.as_before(id, at.each_ref()) {
                     Some(range) => range,
                     None => {
-                        let range = self.entries(id, table, [column, row]);
+                        self.note_args(id, at);
+                        let range = self.entries(id, table, at);
                         self.once.keep(id, range)
                     }
                 }

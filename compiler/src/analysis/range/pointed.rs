@@ -9,18 +9,17 @@ use slowlight_routine::{Op, Range, Type, Value};
 use std::collections::BTreeSet;
 
 impl Walk<'_> {
-    /// What a table's entries stay within, as a lookup has them, where it may read all of them or
-    /// only those of a column or row.
-    pub(super) fn entries(&self, id: NodeId, table: TableId, at: [NodeId; 2]) -> Range {
+    /// What a table's entries stay within, as a lookup has them that may read those of such
+    /// columns and rows.
+    pub(super) fn entries(&self, id: NodeId, table: TableId, [columns, rows]: [Range; 2]) -> Range {
         let table = self.graph.tables.get(table.0 as usize);
-        let [column, row] = at.map(|id| self.graph.constant(id));
         let held = |value: Value| match (&self.slack.points, value) {
             (Some(points), Value::Real(real)) => points.nearest(id, real),
             // As it is held, where all reals have one point.
             _ => self.slack.constant(value),
         };
         let values = table.into_iter().flat_map(|t| {
-            let all = t.candidates(column, row);
+            let all = t.within((columns.lo, columns.hi), (rows.lo, rows.hi));
             all.map(|at| held(t.entries[at].value()))
         });
         let all = values.reduce(Range::join).unwrap_or(Range::ALL);
