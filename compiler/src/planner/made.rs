@@ -59,6 +59,10 @@ pub fn plan_within(
     plan_among(graph, target, goal, (fuel, MODELLED), without)
 }
 
+/// Passes after which a comparison of a column's height with the row need not be one any more:
+/// machines that draw columns alone find them by it ([`crate::backend::mos6502`]).
+const HIDES_COLUMNS: [Pass; 2] = [Pass::InvertMonotone, Pass::PolynomialForms];
+
 /// The same for a plan among many, where fewer statements than usual may run in the routines'
 /// models to find values' widths: where that is not enough, the plan was cut.
 pub fn plan_among(
@@ -76,6 +80,10 @@ pub fn plan_among(
     cx.tables = target.columns_only;
     cx.draft = fuel == 0;
     cx.modelled = modelled.min(MODELLED);
+    let without = match target.columns_only {
+        true => HIDES_COLUMNS.into_iter().fold(without, PassSet::with),
+        false => without,
+    };
     cx.pipeline = Pipeline::without(without);
     candidate(&Arc::new(cx), target, goal, (all, Fuel::new(fuel)))?.assembled(target, goal)
 }
