@@ -82,6 +82,7 @@ passes! {
     Unswitch "unswitch" "passes/branches/unswitch" "unswitching of the ink on one comparison"
     LoopBypass "loop-bypass" "passes/loops/bypass" "zero-trip bypass of loops"
     Rematerialise "rematerialise" "passes/rematerialise" "rematerialisation where values are needed"
+    Distribute "distribute" "passes/algebra/distribute" "products with sums of what changes less often, term by term"
     ScalarExpansion "scalar-expansion" "passes/loops/scalar_expansion" "arrays of values of the column"
     Licm "licm" "passes/loops/licm" "loop-invariant code motion by frequency"
     WordLengths "word-lengths" "wordlength/precision" "fewer bits for values where the picture allows"

@@ -1,6 +1,7 @@
 //! Algebra over the reals: passes that compute the same values by other formulas.
 
 pub mod angle_addition;
+pub mod distribute;
 mod formula;
 pub mod identities;
 pub mod polynomial;

@@ -1,8 +1,10 @@
 //! Search over scalar expansion: which values are computed once a column, of what
-//! [`crate::passes::loops::scalar_expansion`] offers, where that makes the plan cheaper.
+//! [`crate::passes::loops::scalar_expansion`] offers, where that makes the plan cheaper, also
+//! after products are made term by term.
 
 use crate::cost::size_budget::SizeBudget;
 use crate::ir::graph::NodeId;
+use crate::passes::algebra::distribute::distribute;
 use crate::passes::loops::scalar_expansion::{columns, tabulated};
 use crate::planner::context::Context;
 use crate::planner::pipeline::Pass;
@@ -24,8 +26,21 @@ pub fn in_columns(
     if plan.graph.image.width > target.columns {
         return plan;
     }
-    let next = cx.always(Pass::ScalarExpansion, || expanded(&plan, cx, budget));
-    next.unwrap_or(plan)
+    let expand = |plan: &Analysed| cx.always(Pass::ScalarExpansion, || expanded(plan, cx, budget));
+    let found = expand(&plan);
+    // A product leaves the pixel where what it is of is in arrays, and not before.
+    let apart = || {
+        let graph = distribute(&plan.graph, &plan.ranges)?;
+        let next = expand(&cx.simplified(&graph))?;
+        let price = cx.price(budget);
+        let now = price.of(found.as_ref().unwrap_or(&plan));
+        (price.of(&next) < CHEAPER * now).then_some(next)
+    };
+    let apart = match cx.fuel.spent() {
+        true => None,
+        false => cx.always(Pass::Distribute, apart),
+    };
+    apart.or(found).unwrap_or(plan)
 }
 
 fn expanded(plan: &Analysed, cx: &Context, budget: SizeBudget) -> Option<Analysed> {
