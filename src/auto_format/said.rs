@@ -55,8 +55,8 @@ impl Why {
         let (wrong, goal) = shares(self.expected, self.goal);
         if self.expected <= self.goal {
             return format!(
-                "format {format}: about {wrong} of the pixels are wrong, of the {goal} that may be \
-                 (--error, --goal; --format for another)"
+                "format {format}: about {wrong} of the pixels are wrong, and {goal} may be (--error \
+                 or --goal says how many; --format takes another format)"
             );
         }
         let large = self.others.large.iter();
@@ -64,8 +64,8 @@ impl Why {
         let of_those_that_fit = if large.is_empty() { "" } else { " and fits" };
         let mut said = format!(
             "format {format}: about {wrong} of the pixels are wrong, more than the {goal} that may \
-             be: none that was tried{of_those_that_fit} is nearer (--error, --goal; --format for \
-             another)"
+             be: none that was tried{of_those_that_fit} is nearer (--error or --goal says how many \
+             may be; --format takes another format)"
         );
         if let Some((quick, cycles, wrong)) = self.quicker(format) {
             let more = shares(wrong, self.expected).0;
@@ -156,7 +156,7 @@ mod tests {
             others,
         };
         insta::assert_snapshot!(why.note("fixed16", "m", &|| "what would help: less".to_owned()), @r"
-        format fixed16: about 16% of the pixels are wrong, more than the 1% that may be: none that was tried and fits is nearer (--error, --goal; --format for another)
+        format fixed16: about 16% of the pixels are wrong, more than the 1% that may be: none that was tried and fits is nearer (--error or --goal says how many may be; --format takes another format)
           log10 is about 4.0 times as quick, with about 20% wrong: --format log10, or --error 22%
           not held by m, and perhaps nearer:
             fixed24: mode 5: about 9,100 of 8,500 bytes, 600 too many
