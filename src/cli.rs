@@ -9,11 +9,16 @@ use std::process::ExitCode;
 /// Compiles ray-traced scenes for machines where light is slow, runs the
 /// programs on bundled machines, and shows what accuracy costs in time.
 #[derive(Parser, Debug)]
-#[command(version, propagate_version = true)]
+#[command(version, propagate_version = true, after_help = BEGIN)]
 struct Cli {
     #[command(subcommand)]
     command: commands::Command,
 }
+
+/// Where to begin.
+const BEGIN: &str = "To begin: `slowlight new hill`, then `slowlight live hill.scn --target 6502 --open` \
+                     (docs/start.md).\nWhat is meant by native, model, ink, format and so on: \
+                     docs/words.md";
 
 /// What the command line takes.
 pub fn command_line() -> clap::Command {

@@ -26,7 +26,9 @@ pub fn read_bounded(path: &Path, most: usize) -> Outcome<Vec<u8>> {
     let wrong = |e: std::io::Error| Failure::Wrong(format!("cannot read {shown}: {}", plain(&e)));
     let meta = std::fs::metadata(path).map_err(wrong)?;
     if meta.is_dir() {
-        return Err(Failure::Wrong(format!("{shown} is a directory")));
+        return Err(Failure::Wrong(format!(
+            "{shown} is a directory, not a file"
+        )));
     }
     let file = std::fs::File::open(path).map_err(wrong)?;
     bounded(file, &shown.to_string(), most).map_err(Failure::Wrong)

@@ -122,8 +122,13 @@ pub fn text(all: &[Fared]) -> String {
         };
         rows.push(first.into_iter().chain(rest).collect());
     }
-    format::table(&rows)
+    format::table(&rows) + LEGEND
 }
+
+/// What the columns mean.
+const LEGEND: &str = "bound proved: of how many of these pixels it is proved how far the shade, 0 to 1, can \
+                      be off at most;\nwithin: by no more than this; off by: how far it is; ratio: of \
+                      within to off by, the median (docs/precision.md)\n";
 
 fn cells(fared: &Fared, shades: &Bounded) -> Vec<String> {
     let warned = fared

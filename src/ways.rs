@@ -14,13 +14,15 @@ pub struct WayArgs {
     /// Find what rays meet by each shape's own solution (`trace`) or by sphere tracing
     /// (`march:64:0.01`: steps at most, and what is near enough), whichever the scene says.
     /// The native picture keeps to the scene
-    #[arg(long, value_name = "WAY", value_parser = search)]
+    #[arg(long, value_name = "WAY", help_heading = "A coarser picture in less time", value_parser = search)]
     pub hits: Option<Search>,
-    /// Make normals of differences so far apart where they are gradients else
-    #[arg(long, value_name = "APART", value_parser = apart)]
+    /// Find normals by comparing the shape at four points so far apart, as in 0.01, where
+    /// otherwise its formula is differentiated
+    #[arg(long, value_name = "APART", help_heading = "A coarser picture in less time", value_parser = apart)]
     pub differences: Option<Millionths>,
-    /// Let no pixel have more than N rays where the library draws it by several
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    /// Let no pixel have more than N rays where the library draws it by several (`supersample`,
+    /// `depth_of_field`)
+    #[arg(long, value_name = "N", help_heading = "A coarser picture in less time", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub samples: Option<u32>,
 }
 

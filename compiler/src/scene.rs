@@ -221,7 +221,12 @@ impl Loader {
                             self.add(name, text, false);
                         }
                     }
-                    Err(why) => self.diagnostics.push(Diagnostic::error(span, why)),
+                    Err(why) => {
+                        let error = Diagnostic::error(span, why);
+                        let help = "name a scene's file, as it lies from the file that uses it: \
+                                    `use \"shapes.scn\";`";
+                        self.diagnostics.push(error.help(help));
+                    }
                 }
             }
             at += 1;

@@ -68,8 +68,8 @@ impl Why {
             let cliff = self.quicker(format, CLIFF, GOALS * self.goal);
             let hint = cliff.map_or(String::new(), |quick| self.hint(quick));
             return format!(
-                "format {format}: about {wrong} of the pixels are wrong, of the {goal} that may be \
-                 (--error, --goal; --format for another){hint}"
+                "format {format}: about {wrong} of the pixels are wrong, and {goal} may be (--error \
+                 or --goal says how many; --format takes another format){hint}"
             );
         }
         let large = self.others.large.iter();
@@ -77,8 +77,8 @@ impl Why {
         let of_those_that_fit = if large.is_empty() { "" } else { " and fits" };
         let mut said = format!(
             "format {format}: about {wrong} of the pixels are wrong, more than the {goal} that may \
-             be: none that was tried{of_those_that_fit} is nearer (--error, --goal; --format for \
-             another)"
+             be: none that was tried{of_those_that_fit} is nearer (--error or --goal says how many \
+             may be; --format takes another format)"
         );
         if let Some(quick) = self.quicker(format, QUICKER, 2.0 * self.expected) {
             said.push_str(&self.hint(quick));
@@ -174,7 +174,7 @@ mod tests {
             others,
         };
         insta::assert_snapshot!(why.note("fixed16", "m", &|| "what would help: less".to_owned()), @r"
-        format fixed16: about 16% of the pixels are wrong, more than the 1% that may be: none that was tried and fits is nearer (--error, --goal; --format for another)
+        format fixed16: about 16% of the pixels are wrong, more than the 1% that may be: none that was tried and fits is nearer (--error or --goal says how many may be; --format takes another format)
           log10 is about 4.0 times as quick, with about 20% wrong: --format log10, or --error 22%
           not held by m, and perhaps nearer:
             fixed24: mode 5: about 9,100 of 8,500 bytes, 600 too many
@@ -198,7 +198,7 @@ mod tests {
         };
         let nothing = || String::new();
         insta::assert_snapshot!(why(13_000.0).note("real40", "m", &nothing), @r"
-        format real40: about 0.1% of the pixels are wrong, of the 1% that may be (--error, --goal; --format for another)
+        format real40: about 0.1% of the pixels are wrong, and 1% may be (--error or --goal says how many; --format takes another format)
           fixed16 is about 13.0 times as quick, with about 1.1% wrong: --format fixed16, or --error 2%
         ");
         assert!(!why(3_000.0).note("real40", "m", &nothing).contains("quick"));

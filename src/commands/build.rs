@@ -33,7 +33,7 @@ use std::path::{Path, PathBuf};
 pub struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The machine: see `slowlight targets`
+    /// The machine, as in jack, bbc, 6502 or 6502:c64; `slowlight targets` lists all
     #[arg(short, long, value_name = "T", value_parser = target_args::target,
           required_unless_present = "emit")]
     target: Option<&'static Target>,

@@ -26,18 +26,18 @@ pub struct Args {
     /// Print the diagnostics, or how the cases were passed, as JSON
     #[arg(long)]
     json: bool,
-    /// Try the kernels on a file of hard cases instead: natively, in every
-    /// format's model, and on every machine
+    /// Instead of a scene, try the library's formulas on a file of hard cases: natively, in
+    /// every format's model, and on every machine (docs/hard-cases.md)
     #[arg(long, value_name = "FILE.json", conflicts_with = "scene")]
     cases: Option<PathBuf>,
-    /// Only for a target [default: one of each format]; with --cases also
+    /// Only for a machine, as in jack or 6502 [default: one for each format]; with --cases also
     /// native and model
     #[arg(short, long, value_name = "TARGET")]
     target: Vec<String>,
-    /// Only in a format; with --cases also f64
+    /// Only in a format, as in log10; with --cases also f64
     #[arg(long, value_name = "FORMAT")]
     format: Vec<String>,
-    /// Only the scene itself, in no format
+    /// Only what is wrong with the scene itself, without looking at any machine's format
     #[arg(long, conflicts_with_all = ["cases", "target", "format"])]
     quick: bool,
     /// With the textbook's forms of the kernels

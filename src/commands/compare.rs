@@ -22,10 +22,11 @@ const GAP: u32 = 4;
 pub struct Args {
     #[command(flatten)]
     scenes: ScenesArgs,
-    /// A machine; all where none is named
+    /// A machine, as in jack or 6502:c64; said again, more; all where none is named
     #[arg(short, long, value_name = "T", value_parser = target_args::target)]
     target: Vec<&'static Target>,
-    /// How reals are held, on machines that have several ways: some of these, or all
+    /// A format that reals are held in, as in log10, on machines that have it; said again, more;
+    /// or all [default: each machine's first]
     #[arg(long, value_name = "F|all", value_parser = target_args::format_or_all)]
     format: Vec<String>,
     /// Jack's operating system, as for `run`
@@ -34,7 +35,7 @@ pub struct Args {
     /// Rewrite nothing, neither for accuracy nor for speed: every formula as the scene has it
     #[arg(long)]
     as_written: bool,
-    /// Only these rows of the picture, both ends included
+    /// Only these rows of the picture, both ends included, as in 0..19
     #[arg(long, value_name = "A..B")]
     rows: Option<String>,
     /// Where to write the pictures side by side (.png): native, machine, difference; a line a machine
@@ -167,7 +168,7 @@ const HEADS: [&str; 13] = [
 ];
 
 const LEGEND: &str = "model, native: pixels whose ink differs; rmse, PSNR (dB): of shades; \
-                      cycles and time: measured\n";
+                      cycles and time: measured (docs/words.md)\n";
 
 impl Row<'_> {
     fn name(&self) -> String {

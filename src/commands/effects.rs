@@ -19,7 +19,7 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The machine: see `slowlight targets`
+    /// The machine, as in jack, bbc, 6502 or 6502:c64; `slowlight targets` lists all
     #[arg(short, long, value_name = "T", value_parser = target_args::target)]
     target: &'static Target,
     #[command(flatten)]
@@ -245,6 +245,13 @@ fn known(found: &Effects) -> String {
         Some(n) => format!("; {n} inks are rounded to others"),
         None => String::new(),
     };
+    if cycles_saved < 0 {
+        return format!(
+            "where the ink is known before the whole shade, nothing is saved here: every shade in \
+             full would take {} cycles less{changed}\n",
+            count(cycles_saved.unsigned_abs())
+        );
+    }
     format!(
         "where the ink is known before the whole shade, {} of {} cycles are saved ({}){changed}\n",
         signed(cycles_saved),

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The machine: see `slowlight targets`
+    /// The machine, as in jack, bbc, 6502 or 6502:c64; `slowlight targets` lists all
     #[arg(short, long, value_name = "T", value_parser = target_args::target)]
     target: &'static Target,
     #[command(flatten)]

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 pub struct Args {
     /// The scene's file
     scene: PathBuf,
-    /// The machine to begin with: see `slowlight targets` [default: the first]
+    /// The machine to begin with, as in jack or 6502 (`slowlight targets` lists all) [default: the first]
     #[arg(short, long, value_name = "T", value_parser = target_args::target)]
     target: Option<&'static Target>,
     /// The port of this computer that the page is at [default: one that is free]

@@ -20,16 +20,16 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// In the inks of this target's screen
+    /// In the inks of this machine's screen, as in 6502:c64
     #[arg(short, long, value_name = "T", value_parser = target_args::target)]
     target: Option<&'static Target>,
-    /// The screen's mode, whose inks count
+    /// The mode of that screen, as in hires
     #[arg(long, value_name = "N", requires = "target")]
     mode: Option<String>,
-    /// Only these rows, both ends included
+    /// Only these rows, both ends included, as in 0..19
     #[arg(long, value_name = "A..B")]
     rows: Option<String>,
-    /// Where to write the picture: .png, .pgm (ink indices) or .pbm (two inks); pictures that
+    /// Where to write the picture: .png, .pgm (numbers of inks) or .pbm (two inks); pictures that
     /// move: .gif or .png, animated
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -37,7 +37,7 @@ pub struct Args {
     /// terminal shows the picture as it can, and what is no terminal gets text
     #[arg(long)]
     ascii: bool,
-    /// Print size and digest as JSON
+    /// Print size and digest (SHA-256 of the inks) as JSON
     #[arg(long, conflicts_with = "ascii")]
     json: bool,
     #[command(flatten)]

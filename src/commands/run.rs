@@ -30,7 +30,7 @@ const LISTED: usize = 10;
 pub struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The machine: see `slowlight targets`
+    /// The machine, as in jack, bbc, 6502 or 6502:c64; `slowlight targets` lists all
     #[arg(short, long, value_name = "T", value_parser = target_args::target)]
     target: &'static Target,
     #[command(flatten)]
@@ -307,8 +307,13 @@ fn report(trial: &Trial, others: &[(String, u64)]) -> String {
     let mut out = title + &table(&rows);
     out.push_str(&listed("model", &trial.from_model));
     out.push_str(&listed("native", &trial.from_native));
+    out.push_str(LEGEND);
     out
 }
+
+/// What the rows mean.
+const LEGEND: &str = "model: the program's own arithmetic on this computer (it should not differ); \
+                      native: the scene in 64-bit floats; shades are from 0 to 1 (docs/words.md)\n";
 
 /// The first pixels that differ.
 fn listed(from: &str, found: &Option<Vec<Difference>>) -> String {

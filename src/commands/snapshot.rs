@@ -19,7 +19,8 @@ pub struct Args {
     /// The scenes' files
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// A machine; where none is named, those of which there are snapshots
+    /// A machine, as in jack or 6502:c64; said again, more; where none is named, those of which
+    /// there are snapshots
     #[arg(short, long, value_name = "T", value_parser = target_args::target)]
     target: Vec<&'static Target>,
     /// Write the snapshots that are new or changed

@@ -19,14 +19,14 @@ pub struct Args {
     /// The scenes' files
     #[arg(required_unless_present = "merge", value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// A machine; all where none is named
+    /// A machine, as in jack or 6502:c64; said again, more; all where none is named
     #[arg(short, long, value_name = "T", value_parser = target_args::target)]
     target: Vec<&'static Target>,
     /// The document to write, in Markdown; with --shard the part, as JSON
     #[arg(short, long, value_name = "FILE.md")]
     output: PathBuf,
-    /// Do every Nth scene on its machine only, the Kth of each N, and write what was found as a
-    /// part for --merge
+    /// Do only the Kth of N parts of the work, as in 1/8, and write what was found as a part for
+    /// --merge (docs/tune.md)
     #[arg(long, value_name = "K/N", value_parser = Shard::read, conflicts_with = "pictures")]
     shard: Option<Shard>,
     /// Join the parts that --shard wrote, all N of them, to the document that one run writes

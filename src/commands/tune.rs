@@ -31,7 +31,7 @@ use std::sync::{Arc, Mutex};
 pub struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The machine: see `slowlight targets`
+    /// The machine, as in jack, bbc, 6502 or 6502:c64; `slowlight targets` lists all
     #[arg(short, long, value_name = "T", value_parser = target_args::target)]
     target: &'static Target,
     /// The screen's mode, where the machine has several (see `slowlight targets`)
@@ -58,10 +58,11 @@ pub struct Args {
     /// The directory to write the program that was chosen to
     #[arg(short, long, value_name = "DIR", default_value = ".")]
     output: PathBuf,
-    /// Write a page that shows the frontier, its pictures and how to get them
+    /// Write a page (HTML) that shows the ways that are worth choosing, their pictures and how to
+    /// get them
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Write the plot alone
+    /// Write the plot of time against error alone
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     /// Another program in the plot: 'the original=9h45m,0.47%'; beside those that the scene
@@ -74,10 +75,10 @@ pub struct Args {
     /// Print all points as comma-separated values
     #[arg(long, conflicts_with = "json")]
     csv: bool,
-    /// Keep params changeable: do not try to fold them
+    /// Keep params changeable: do not try to work them out beforehand (`--freeze all`)
     #[arg(long)]
     live: bool,
-    /// How many settings, of blocks and loops, are tried in each format
+    /// How many settings (of blocks, turns of loops and so on) are tried in each format
     #[arg(long, value_name = "N", default_value_t = SETTINGS, value_parser = clap::value_parser!(u16).range(1..=200))]
     settings: u16,
     /// How much work to do: so many times the usual, which takes a minute on two processors

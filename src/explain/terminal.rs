@@ -24,9 +24,15 @@ pub fn text(found: &Explained) -> String {
         }
     }
     out.push_str(&foot(found));
+    out.push_str(LEGEND);
     out.push_str(&why(found));
     out
 }
+
+/// What the columns mean.
+const LEGEND: &str = "share: of all cycles; runs: how often the line's code was begun; size: of its code \
+                      alone; error: its part of how far the shades are off;\nrate: how often its values \
+                      change (docs/explain.md)\n";
 
 /// What lines' plans could not do, the dearest line first, if that was asked.
 fn why(found: &Explained) -> String {

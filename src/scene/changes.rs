@@ -14,10 +14,11 @@ pub struct Changes {
     /// Give a param another value, a state another start: eye=0.35,0.25,3.6 or heading=45deg
     #[arg(long, value_name = "PARAM=VALUE", allow_hyphen_values = true)]
     pub set: Vec<String>,
-    /// Fold a param, or a state of a still picture, like a constant: its name, or all
+    /// Work a param (or a state of a still picture) out beforehand, so that it costs no time but
+    /// cannot be changed in the program: its name, or all
     #[arg(long, value_name = "PARAM|all")]
     pub freeze: Vec<String>,
-    /// Replace an effect by its `else`
+    /// Leave an effect of the scene out: each call of it comes to its `else`
     #[arg(long, value_name = "EFFECT")]
     pub without: Vec<String>,
     /// Use this directory's *.scn as the library

@@ -61,7 +61,10 @@ pub fn used(from: &str, path: &str) -> Result<(String, String), String> {
         .ok()
         .and_then(|full| {
             let here = std::env::current_dir().ok()?;
-            Some(full.strip_prefix(here).map_or(full.clone(), Path::to_owned))
+            let near = full.strip_prefix(here).ok();
+            // The directory itself has no name there.
+            let near = near.filter(|near| !near.as_os_str().is_empty());
+            Some(near.map_or(full.clone(), Path::to_owned))
         })
         .unwrap_or(path);
     text(&path).map_err(|failure| match failure {

@@ -39,13 +39,13 @@ use std::sync::Once;
 /// Screen and rows.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ScreenArgs {
-    /// The screen's mode, where the machine has several (see `slowlight targets`)
+    /// The screen's mode, as in 1 or hires (see `slowlight targets`) [default: the best]
     #[arg(long, value_name = "N")]
     pub mode: Option<String>,
-    /// Only these rows of the picture, both ends included
+    /// Only these rows of the picture, both ends included, as in 0..19
     #[arg(long, value_name = "A..B")]
     pub rows: Option<String>,
-    /// Compute without drawing
+    /// Compute all pixels and draw none: what arithmetic alone takes
     #[arg(long)]
     pub no_plot: bool,
     /// Jack's operating system: `native`, the VM's own, or `jack`, ours in Jack, which
@@ -57,15 +57,16 @@ pub struct ScreenArgs {
     /// scene's lines, with its cycles [default: fast]
     #[arg(long, value_name = "STYLE")]
     pub style: Option<Style>,
-    /// How reals are held, where the machine has several ways (see `slowlight targets`)
-    #[arg(long, value_name = "F")]
+    /// The format that reals are held in, as in log10 or fixed16 (`slowlight targets` says
+    /// which there are) [default: the quickest that is within --error]
+    #[arg(long, value_name = "F", help_heading = "How numbers are held")]
     pub format: Option<String>,
-    /// What share of the pixels may have another ink than natively, where no --format is
-    /// given: the quickest format within it is taken [default: 1%]
-    #[arg(long, value_name = "E", value_parser = share, conflicts_with = "format")]
+    /// What share of the pixels may have another ink than the native picture, as in 0.5% or
+    /// 0.005, where no --format is given: the quickest format within it is taken [default: 1%]
+    #[arg(long, value_name = "E", help_heading = "How numbers are held", value_parser = share, conflicts_with = "format")]
     pub error: Option<f64>,
     /// The same in a word: `fast` 3%, `balanced` 1%, `exact` 0.1%
-    #[arg(long, value_name = "GOAL", conflicts_with_all = ["format", "error"])]
+    #[arg(long, value_name = "GOAL", help_heading = "How numbers are held", conflicts_with_all = ["format", "error"])]
     pub goal: Option<ErrorGoal>,
     /// Where programs begin on a BBC Micro, in hexadecimal: 1900 with a disc, E00 without
     /// [default: 1900; machine code that needs more moves itself down to E00]
@@ -76,20 +77,20 @@ pub struct ScreenArgs {
     /// as in a Master) has others in their places
     #[arg(long)]
     pub undocumented: bool,
-    /// Compute once for N x N or W x H pixels, and draw them as a block: the shade is that
-    /// of the block's middle. The picture must be whole blocks
-    #[arg(long, value_name = "N|WxH", value_parser = block)]
+    /// Compute once for N x N or W x H pixels, as in 4 or 4x2, and draw them as a block: the
+    /// shade is that of the block's middle. The picture must be whole blocks
+    #[arg(long, value_name = "N|WxH", help_heading = "A coarser picture in less time", value_parser = block)]
     pub block: Option<(u32, u32)>,
-    /// Trace every Nth row, and between them only pixels whose neighbours differ by more than
-    /// TOL of white; the others lie between those [default of TOL: 0.031]
-    #[arg(long, value_name = "N[:TOL]", value_parser = refining)]
+    /// Trace every Nth row (2, 4, 8 or 16), and between them only pixels whose neighbours differ
+    /// by more than TOL of white, as in 8 or 8:0.05; the others lie between [TOL: 0.031]
+    #[arg(long, value_name = "N[:TOL]", help_heading = "A coarser picture in less time", value_parser = refining)]
     pub refine: Option<Refining>,
     /// Let no loop that the scene writes (bounces, say) take more than N turns on the
     /// machine; its `else` then says what it comes to. The native picture keeps them all
-    #[arg(long, value_name = "N", value_parser = turns)]
+    #[arg(long, value_name = "N", help_heading = "A coarser picture in less time", value_parser = turns)]
     pub max_turns: Option<u32>,
     /// The same for the library's loops: marches, walks through maps, searches for hits
-    #[arg(long, value_name = "N", value_parser = turns)]
+    #[arg(long, value_name = "N", help_heading = "A coarser picture in less time", value_parser = turns)]
     pub max_steps: Option<u32>,
     /// Other ways to what the scene asks for.
     #[command(flatten)]
@@ -98,16 +99,16 @@ pub struct ScreenArgs {
     #[command(flatten)]
     pub passes: PassArgs,
     /// Rewrite nothing, neither for accuracy nor for speed: every formula as the scene has it
-    #[arg(long)]
+    #[arg(long, help_heading = "To see what the compiler does (docs/passes.md)")]
     pub as_written: bool,
-    /// Compute shades in full even where the ink is known without, to see what that saves
-    #[arg(long)]
+    /// Compute each pixel's whole shade even where its ink is known without, to compare
+    #[arg(long, help_heading = "To see what the compiler does (docs/passes.md)")]
     pub every_shade: bool,
-    /// With subroutines for what the program has several times, also where it fits without
-    #[arg(long)]
+    /// Make subroutines of what the program has several times, even where it fits without
+    #[arg(long, help_heading = "To see what the compiler does (docs/passes.md)")]
     pub outlined: bool,
-    /// Spend less memory on speed, from 0, the default, to 6, also where the program fits
-    #[arg(long, value_name = "STEP", value_parser = thrift)]
+    /// Spend less memory (on tables, say) for speed, from 0, the default, to 6
+    #[arg(long, value_name = "STEP", help_heading = "To see what the compiler does (docs/passes.md)", value_parser = thrift)]
     pub thrift: Option<u8>,
     /// How shapes that are alike may be found.
     #[arg(skip)]

@@ -9,10 +9,10 @@ use slowlight_compiler::sema::{Instancing, Ways};
 #[derive(Args, Clone, Debug, Default)]
 pub struct PassArgs {
     /// Leave a pass of the planner out (`build --emit passes` lists them); may be said again
-    #[arg(long, value_name = "PASS", value_parser = pass)]
+    #[arg(long, value_name = "PASS", help_heading = "To see what the compiler does (docs/passes.md)", value_parser = pass)]
     without_pass: Vec<Pass>,
     /// Leave all passes out that come after this one: with `--emit plan`, what stands there
-    #[arg(long, value_name = "PASS", value_parser = pass)]
+    #[arg(long, value_name = "PASS", help_heading = "To see what the compiler does (docs/passes.md)", value_parser = pass)]
     stop_after: Option<Pass>,
 }
 

@@ -157,7 +157,8 @@ impl<'a> Told<'a> {
         let mut out = table(&self.rows());
         out.push_str(
             "pixels, %: whose ink is not the native one; rmse: of shades before the dither; low-pass: of \
-             inks under a Gaussian of 3 pixels; bytes: code, tables, memory; time and cycles: measured\n",
+             inks under a Gaussian of 3 pixels; bytes: code, tables, memory; time and cycles: measured; \
+             none of these is beaten by another in both time and error (docs/tune.md)\n",
         );
         for (choice, why) in &self.found.failed {
             out.push_str(&format!(
@@ -181,7 +182,7 @@ impl<'a> Told<'a> {
         };
         let (choice, look) = all.iter().min_by(best)?;
         Some(format!(
-            "beyond --effort: {}, such as {}, about {}\n",
+            "beyond --effort: {}, such as {}, about {}: a greater --effort tries more\n",
             all.len(),
             self.base.words(choice).join(" "),
             duration(look.cycles / self.base.hertz()),

@@ -79,3 +79,38 @@ draw (x, y) = ink(0);
     let told = said(dir.path(), &["check", "c.scn", "--quick"]);
     assert!(told.contains("one of: black, red, green, yellow"), "{told}");
 }
+
+/// What a scene that moves asks by name, hidden by an item; a box in which nothing is; what is
+/// no file.
+#[test]
+fn what_a_scene_does_not_mean_is_told() {
+    let begin = "image 8 x 8 inks black, white;\n";
+    let hidden = format!(
+        "{begin}state picture: int = 0 in 0 .. 9 -> picture + 1;\ndraw (x, y) = ink(picture mod 2);\n"
+    );
+    let swapped = format!(
+        "{begin}scene w {{ box((0, 1, 0), (1, 0, 1)) is 1; }}
+draw (x, y) = ink(if let h = w.trace(ray((x, y, 9), (0, 0, -1)), far: 20) then h.tag else 0);\n"
+    );
+    let nowhere = format!("use \".\";\n{begin}draw (x, y) = ink(0);\n");
+    let ranged =
+        format!("{begin}state a: bool = true in 0 .. 1 -> not a;\ndraw (x, y) = ink(0);\n");
+    let cases = [
+        (hidden, "this hides the language's own `picture`", 0),
+        (
+            swapped,
+            "nothing is in this `box`: `low.y` is 1, above `high.y`, which is 0",
+            1,
+        ),
+        (nowhere, "is a directory, not a file", 1),
+        (ranged, "the state `a` is a bool, which has no range", 1),
+    ];
+    for (scene, wanted, status) in cases {
+        let dir = directory(&[("s.scn", &scene)]);
+        let output = slowlight(dir.path(), &["check", "s.scn", "--quick"]);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(told.contains(wanted), "{told}");
+        assert_eq!(output.status.code(), Some(status), "{told}");
+        assert!(!told.contains("errors"), "{told}");
+    }
+}

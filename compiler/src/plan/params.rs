@@ -48,7 +48,7 @@ fn ranged(p: &Param, runtime: &Runtime) -> Result<(), Diagnostic> {
     );
     Err(Diagnostic::error(p.span, message)
         .label("how large may it become?")
-        .help("say it: `param ... = value in least .. greatest;`, or fold it with --freeze"))
+        .help("say it: `param ... = value in least .. greatest;`, or make a constant of it by --freeze"))
 }
 
 /// The value and the range must be numbers that the source can write, or
@@ -82,7 +82,7 @@ fn small(p: &Param, runtime: &Runtime) -> Result<(), Diagnostic> {
     );
     Err(Diagnostic::error(p.span, message)
         .label("too large for this target")
-        .help("make it smaller (another unit, a narrower range), or fold it with --freeze"))
+        .help("make it smaller (another unit, a narrower range), or make a constant of it by --freeze"))
 }
 
 fn param(p: &Param, runtime: &Runtime) -> ParamPlan {

@@ -27,12 +27,12 @@ pub fn could_not(found: &Explained, tried: &Tried<'_>, missed: Missed) -> String
             cheaper(found, &now, &then)
         }
         (Kind::Constant, Missed::Fewer { left_out, of }) => {
-            format!("{} not folded", operations(left_out, of))
+            format!("{} not worked out beforehand", operations(left_out, of))
         }
         (_, Missed::Fewer { left_out, of }) => {
             format!("{} not left out", operations(left_out, of))
         }
-        (Kind::Constant, Missed::Elsewhere) => "not folded".to_owned(),
+        (Kind::Constant, Missed::Elsewhere) => "not worked out beforehand".to_owned(),
         (_, Missed::Elsewhere) => "not arranged more cheaply".to_owned(),
     }
 }

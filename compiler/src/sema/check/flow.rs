@@ -82,7 +82,10 @@ impl Checker<'_> {
                     let value = self.expr(value, false);
                     let ty = match &value.ty {
                         Ty::Optional(inner) if **inner == Ty::Never => {
-                            self.error(value.span, "`none` alone has no type");
+                            let error = Diagnostic::error(value.span, "`none` alone has no type");
+                            self.report(
+                                error.help("let it stand beside a value: `if c then v else none`"),
+                            );
                             Ty::Error
                         }
                         other => other.clone(),
@@ -166,7 +169,8 @@ impl Checker<'_> {
         };
         if !tail || self.cx.loops.is_empty() {
             let error = match self.cx.loops.is_empty() {
-                true => Diagnostic::error(span, "`next` stands outside a loop"),
+                true => Diagnostic::error(span, "`next` stands outside a loop")
+                    .help("its place is in a loop's braces: `loop (i = 0) max 9 { .. next(i + 1) .. } else i`"),
                 false => Diagnostic::error(span, "`next` is not the last thing that its loop's body does")
                     .help("its place is where the body ends: after `then`, `else`, or at the end of a block"),
             };
@@ -252,7 +256,10 @@ impl Checker<'_> {
                 true => init.ty.clone(),
                 false => {
                     let message = format!("a loop cannot carry {}", self.a(&init.ty));
-                    self.error(init.span, message);
+                    let error = Diagnostic::error(init.span, message);
+                    self.report(
+                        error.help("carry the numbers that it is made of, and make it in the loop"),
+                    );
                     Ty::Error
                 }
             };

@@ -24,7 +24,10 @@ impl<'a> Checker<'a> {
                         true => &mut self.layers.library,
                         false => &mut self.layers.user,
                     };
-                    layer.entry(name).or_default().push(entity);
+                    layer.entry(name.clone()).or_default().push(entity);
+                    if !library {
+                        self.told_of_hiding(entity, &name);
+                    }
                     declared.push((entity, item, *library));
                 }
             }
@@ -64,6 +67,20 @@ impl<'a> Checker<'a> {
                     _ => {}
                 }
             }
+        }
+    }
+
+    /// What a scene that moves asks by name is told of where an item hides it.
+    fn told_of_hiding(&mut self, entity: Entity, name: &str) {
+        let what = match name {
+            "picture" => "the number of the picture",
+            "input" => "what a player holds",
+            _ => return,
+        };
+        if let Some(span) = self.span_of(entity) {
+            let message = format!("this hides the language's own `{name}`, {what}");
+            let warning = Diagnostic::warning(span, message);
+            self.report(warning.help("give it another name, if that is not what you want"));
         }
     }
 

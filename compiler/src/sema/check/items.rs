@@ -233,7 +233,8 @@ impl<'a> Checker<'a> {
             self.body(cx, &[], tree, Some((&ty, &what)))
         };
         let value = body(&tree.value, "value");
-        let range = tree.range.as_ref();
+        // A bool has none: what stands there is not looked at.
+        let range = tree.range.as_ref().filter(|_| ty != Ty::Bool);
         let range = range.map(|(lo, hi)| (body(lo, "least value"), body(hi, "greatest value")));
         // A state is made of others and of itself: that is no cycle, as it is of the picture
         // before.
@@ -249,11 +250,11 @@ impl<'a> Checker<'a> {
                 error.help("say how far it may go: `.. = start in least .. greatest -> next;`"),
             );
         }
-        if let (Ty::Bool, Some((least, _))) = (&ty, &range) {
+        if let (Ty::Bool, Some((least, _))) = (&ty, &tree.range) {
             let what = self.program.params[id.0].what();
             let message = format!("the {what} `{name}` is a bool, which has no range");
-            let error = Diagnostic::error(least.value.span, message);
-            self.report(error.help("leave the `in` and what is behind it out"));
+            let error = Diagnostic::error(least.span, message);
+            self.report(error.help("leave the `in` and its range out"));
         }
         let param = &mut self.program.params[id.0];
         (param.value, param.range, param.next) = (value, range, next);

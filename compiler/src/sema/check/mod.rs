@@ -239,6 +239,13 @@ impl Checker<'_> {
             }
             (Ty::Angle, Ty::Real | Ty::Int) => "divide the angle by `1rad` or `1turn`".into(),
             (Ty::Int | Ty::Real, Ty::Ink) => "`ink(i)` is the palette's ink number i".into(),
+            (Ty::Vector(3), Ty::Ink) => {
+                "`paint(c, x, y)` is an ink for a colour of red, green and blue from 0 to 1".into()
+            }
+            (Ty::Int | Ty::Real, Ty::Bool) => "a comparison is a bool: `a != 0`".into(),
+            (Ty::Optional(_), Ty::Bool) => {
+                "to ask whether it is there, write `if let v = .. then .. else ..`".into()
+            }
             (Ty::Optional(inner), want) if **inner != Ty::Never && inner.fits(want) => format!(
                 "take it apart: `if let v = .. then .. else ..`; `v` is {}",
                 self.a(inner)

@@ -36,7 +36,9 @@ impl Checker<'_> {
             (UnaryOp::Neg, ty @ (Ty::Int | Ty::Real | Ty::Angle | Ty::Vector(_))) => ty.clone(),
             (UnaryOp::Not, other) => {
                 let message = format!("`not` wants a bool, not {}", self.a(other));
-                self.error(value.span, message);
+                let mut error = Diagnostic::error(value.span, message);
+                error.help = self.conversion(other, &Ty::Bool);
+                self.report(error);
                 return Expr::error(span);
             }
             (UnaryOp::Neg, other) => {
@@ -106,6 +108,9 @@ impl Checker<'_> {
         error.help = match op {
             _ if either(|t| matches!(t, Ty::Optional(_))) => {
                 Some("take the optional value apart first: `if let v = .. then .. else ..`".into())
+            }
+            BinaryOp::And | BinaryOp::Or if either(Ty::is_real) => {
+                Some("a comparison is a bool: `a != 0`".into())
             }
             BinaryOp::Mul if matches!((&a.ty, &b.ty), (Ty::Vector(_), Ty::Vector(_))) => {
                 Some("`dot(a, b)` and `cross(a, b)` multiply vectors".into())

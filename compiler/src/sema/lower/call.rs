@@ -37,6 +37,7 @@ impl<'a> Lower<'a> {
             Callee::Shape(id) => {
                 let params = self.program.shapes.get(id.0).map_or(&[][..], |s| &s.params);
                 let args = self.arguments(params, args, span)?;
+                self.not_empty(id, &args, span)?;
                 Ok(Val::Shape(Rc::new(Shape { id, args })))
             }
             Callee::Record(id) => {
@@ -50,6 +51,46 @@ impl<'a> Lower<'a> {
             Callee::Builtin(builtin) => self.builtin(builtin, args, ty, span),
             Callee::Local(_) => Err(self.confused(span)),
         }
+    }
+
+    /// A shape of the library between two corners, or heights, of which one is known to be on
+    /// the wrong side of the other: nothing would ever be hit.
+    fn not_empty(&self, id: ShapeId, args: &[Val], span: Span) -> Found<()> {
+        let Some(shape) = self.program.shapes.get(id.0).filter(|s| s.library) else {
+            return Ok(());
+        };
+        let named = |name: &str| {
+            let at = shape.params.iter().position(|p| p.name == name)?;
+            Some(match args.get(at)? {
+                Val::Parts(parts) => parts.to_vec(),
+                other => vec![other.clone()],
+            })
+        };
+        let (Some(lows), Some(highs)) = (named("low"), named("high")) else {
+            return Ok(());
+        };
+        let number = |value: &Val| match value {
+            Val::Node(id) => self.b.value(*id).map(|v| v.real()),
+            Val::Number(k) => Some(f64::from(*k)),
+            _ => None,
+        };
+        let parts = match lows.len() {
+            1 => [""; 3],
+            _ => [".x", ".y", ".z"],
+        };
+        for ((low, high), part) in lows.iter().zip(&highs).zip(parts) {
+            if let (Some(low), Some(high)) = (number(low), number(high))
+                && low > high
+            {
+                let message = format!(
+                    "nothing is in this `{}`: `low{part}` is {low}, above `high{part}`, which is {high}",
+                    shape.name
+                );
+                let help = "`low` has the lesser value of each coordinate, `high` the greater";
+                return Err(Box::new(self.error(span, message).help(help)));
+            }
+        }
+        Ok(())
     }
 
     fn call_row(&mut self, of: &Instances, args: &'a [Option<Expr>], span: Span) -> Found<Val> {

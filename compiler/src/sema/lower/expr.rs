@@ -163,7 +163,9 @@ impl<'a> Lower<'a> {
             Some(value) => Ok(value.int()),
             None => {
                 let error = self.error(e.span, format!("{what} must be constant"));
-                Err(Box::new(error))
+                let help = "it may use numbers, `const`s and functions of these, but no param and \
+                            nothing of the pixel";
+                Err(Box::new(error.help(help)))
             }
         }
     }

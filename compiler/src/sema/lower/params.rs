@@ -100,7 +100,10 @@ impl<'a> Lower<'a> {
                     if lo > hi {
                         let span = param.range.as_ref().map_or(place, |r| r.0.value.span);
                         let message = format!("this range is empty: {lo} is above {hi}");
-                        return Err(Box::new(Diagnostic::error(span, message)));
+                        let error = Diagnostic::error(span, message);
+                        let help =
+                            "a range goes from the least to the greatest, component by component";
+                        return Err(Box::new(error.help(help)));
                     }
                     found.push(Some(Range::new(lo, hi)));
                 }
