@@ -162,7 +162,7 @@ function factsOf(state) {
     const mode = state.plan.mode ? "mode " + state.plan.mode + ", " : "";
     out.push(["format", state.plan.format, mode + state.plan.inks + " inks"]);
     if (state.plan.expected !== null) {
-      out.push(["expected error", percent(state.plan.expected), "of the pixels; " + percent(state.plan.goal) + " may be"]);
+      out.push(["expected error", percent(state.plan.expected), "of the pixels; up to " + percent(state.plan.goal) + " allowed"]);
     }
   }
   if (state.unlike_model !== null) {
