@@ -173,6 +173,11 @@ fn unwritten(path: &Path, e: &std::io::Error) -> Failure {
     Failure::Wrong(format!("cannot write {}: {}", path.display(), plain(e)))
 }
 
+/// Whether a file is there and is, by a link, another directory's. `directory` is without links.
+pub fn is_elsewhere(path: &Path, directory: &Path) -> bool {
+    std::fs::canonicalize(path).is_ok_and(|full| !full.starts_with(directory))
+}
+
 /// Writes several files; none of them appears before all are written out, and
 /// each appears whole. Directories are not made.
 ///

@@ -212,11 +212,6 @@ pub struct Written {
 }
 
 impl Written {
-    /// Where its files are.
-    pub fn paths(&self) -> Vec<PathBuf> {
-        self.files.iter().map(|(path, _)| path.clone()).collect()
-    }
-
     /// As a table.
     pub fn text(&self) -> String {
         let size = |bytes: u64| format!("{} bytes", count(bytes));

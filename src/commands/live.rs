@@ -1,10 +1,11 @@
 //! `live`: a local page on which a scene is written and its picture seen.
 
-use super::build;
 use crate::failure::{Failure, Outcome};
+use crate::files;
 use crate::live::{self, Start};
 use crate::scene::{self, Changes};
 use crate::target_args::{self, ScreenArgs};
+use crate::trial;
 use slowlight_compiler::backend;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::targets::{TARGETS, Target};
@@ -45,9 +46,20 @@ pub fn run(args: &Args) -> Outcome<()> {
     })
 }
 
-/// Writes what `build` writes; answers where.
+/// Writes what `build` writes; answers where. Through no link that leads out of the directory:
+/// whoever works with the page may have got it from somebody else, links and all.
 fn write(plan: &PlannedScene, screen: &ScreenArgs, directory: &Path) -> Outcome<Vec<PathBuf>> {
     let text = backend::emit(plan);
-    let written = build::write((plan, &text), screen, (None, &[]), directory)?;
-    Ok(written.paths())
+    let built = trial::build_written(&text, plan, screen.machine(plan.target))?;
+    let paths: Vec<PathBuf> = built.files().map(|f| directory.join(&f.name)).collect();
+    if let Some(path) = paths.iter().find(|p| files::is_elsewhere(p, directory)) {
+        let shown = path.display();
+        let why = "is a link to a file outside of the scene's directory, and this page writes \
+                   nothing there";
+        return Err(Failure::Wrong(format!("{shown} {why}")));
+    }
+    let bytes = built.files().map(|f| f.bytes.as_slice());
+    let written: Vec<(&Path, &[u8])> = paths.iter().map(PathBuf::as_path).zip(bytes).collect();
+    files::write_all(&written)?;
+    Ok(paths)
 }

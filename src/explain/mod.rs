@@ -15,6 +15,7 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::target_args::ScreenArgs;
 use crate::trial;
+use crate::vcs;
 use error::{Errors, Without};
 use serde::Serialize;
 use serde_json::Value;
@@ -77,6 +78,11 @@ pub fn count_lines(
     screen: &ScreenArgs,
     limit: u64,
 ) -> Outcome<Counted> {
+    if vcs::is_cartridge(&plan) {
+        let why = "a cartridge goes on for ever, and what its lines take is not told apart yet; \
+                   `run` says what its first picture takes";
+        return Err(Failure::Wrong(why.to_owned()));
+    }
     let documents = slowlight_compiler::backend::emit(&plan);
     let mut loaded = trial::build_for(&plan, screen.machine(plan.target))?.loaded;
     let span = |line: profile::Line| {

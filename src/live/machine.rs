@@ -294,9 +294,19 @@ impl<B: Board> Work<'_, B> {
         Ok(())
     }
 
-    /// Writes the program's files.
+    /// Writes the program's files; of a scene that moves the program that goes on, as `build` has
+    /// it, though its first picture alone is shown.
     fn build(&self, kept: &mut Last, build: Build<'_>) -> Outcome<()> {
-        let plan = self.plan(kept)?;
+        let moving = self.scene.clone().moving();
+        let plan = match moving.graph(None, Precision::NATIVE)?.is_moving() {
+            true => {
+                self.show(|machine| machine.stage = Stage::Planning);
+                let plan = auto_format::plan(&self.screen, &moving, self.run.target)?.plan;
+                interrupt::check()?;
+                plan
+            }
+            false => self.plan(kept)?,
+        };
         self.show(|machine| machine.stage = Stage::Building);
         let files = build(&plan, &self.screen)?;
         // They are there, whatever is chosen by now.

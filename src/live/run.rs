@@ -80,17 +80,6 @@ impl Run {
         })
     }
 
-    /// Whether another is the same but for its number.
-    pub fn is_like(&self, other: &Run) -> bool {
-        let own = |run: &Run| (run.format.clone(), run.options.clone());
-        self.has_frontier_of(other) && own(self) == own(other)
-    }
-
-    /// Whether what is worth choosing for another is so for this one.
-    pub fn has_frontier_of(&self, other: &Run) -> bool {
-        self.target.name == other.target.name && self.mode == other.mode
-    }
-
     /// The options, and the scene as they have it.
     ///
     /// # Errors
@@ -124,6 +113,21 @@ impl Run {
             None => Cow::Borrowed(scene),
         };
         Ok((screen, scene))
+    }
+}
+
+/// What a server asks; a page by itself has its own desk.
+#[cfg(not(target_family = "wasm"))]
+impl Run {
+    /// Whether another is the same but for its number.
+    pub fn is_like(&self, other: &Run) -> bool {
+        let own = |run: &Run| (run.format.clone(), run.options.clone());
+        self.has_frontier_of(other) && own(self) == own(other)
+    }
+
+    /// Whether what is worth choosing for another is so for this one.
+    pub fn has_frontier_of(&self, other: &Run) -> bool {
+        self.target.name == other.target.name && self.mode == other.mode
     }
 }
 

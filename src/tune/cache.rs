@@ -4,7 +4,7 @@
 //! file is named by their digest. The program is known by its own file: any other build
 //! measures anew. Files are written whole or not at all; what cannot be read is measured.
 
-use crate::digest::{self, hexadecimal};
+use crate::digest::hexadecimal;
 use crate::failure::Outcome;
 use crate::files;
 use crate::scene::Scene;
@@ -44,7 +44,7 @@ impl Cache {
         static OWN: OnceLock<Option<String>> = OnceLock::new();
         let own = OWN.get_or_init(|| {
             let program = std::env::current_exe().and_then(std::fs::read);
-            Some(digest::bytes(&program.ok()?))
+            Some(crate::digest::bytes(&program.ok()?))
         });
         let (Some(dir), Some(own)) = (dirs::cache_dir(), own) else {
             return Cache::none();

@@ -157,7 +157,7 @@ fn a_page_begins_with_machines_and_scenes() {
     assert!(about["gallery"].as_array().map(Vec::len) > Some(10));
     assert_eq!(
         about["machines"].as_array().map(Vec::len),
-        Some(slowlight_compiler::targets::TARGETS.len())
+        Some(slowlight_compiler::targets::every().count())
     );
     assert_eq!(about["blank"]["panels"][1]["machine"]["stage"], "idle");
 }

@@ -83,6 +83,47 @@ fn nothing_outside_is_read_or_written() {
     live.drawn(live.edit(with("use \"near.scn\";")));
 }
 
+/// Links that stand in the scene's directory and lead out of it.
+#[cfg(unix)]
+#[test]
+fn no_link_leads_outside() {
+    use std::os::unix::fs::symlink;
+    let dir = directory(&[
+        ("outside.scn", "const far = 7;\n"),
+        ("kept.txt", "as it was"),
+    ]);
+    let inside = dir.path().join("inside");
+    std::fs::create_dir(&inside).expect("a directory");
+    std::fs::write(inside.join("ball.scn"), BALL).expect("a file");
+    symlink("../outside.scn", inside.join("linked.scn")).expect("a link");
+    symlink("..", inside.join("up")).expect("a link");
+    symlink("../kept.txt", inside.join("ball.asm")).expect("a link");
+    let live = Live::begin(&inside, &["ball.scn", "-t", "6502"]);
+    for used in ["linked.scn", "up/outside.scn"] {
+        let serial = live.edit(json!({"text": format!("use \"{used}\";\n{BALL}")}));
+        let shown = live.until("what is wrong", |s| s["problems"]["serial"] == serial);
+        let said = shown["problems"]["list"][0]["message"].to_string();
+        assert!(said.contains("outside of the scene's directory"), "{said}");
+    }
+    live.run(live.edit(json!({"text": BALL})));
+    live.post("build", &json!({}));
+    let shown = live.until("no files", |s| s["built"].is_object());
+    let said = shown["built"]["wrong"].to_string();
+    assert!(said.contains("is a link"), "{}", shown["built"]);
+    assert!(!inside.join("ball.prg").exists());
+    // And the scene's own file, once it is one.
+    std::fs::remove_file(inside.join("ball.scn")).expect("a file");
+    symlink("../kept.txt", inside.join("ball.scn")).expect("a link");
+    for force in [false, true] {
+        let body = json!({"page": "test", "text": BALL, "force": force});
+        let (status, said) = live.post("save", &body);
+        assert_ne!(status, 200, "{said}");
+    }
+    let kept = std::fs::read_to_string(dir.path().join("kept.txt"));
+    assert_eq!(kept.expect("the file"), "as it was");
+    assert_ne!(live.state(0).1["text"]["by"], "file");
+}
+
 #[test]
 fn the_native_picture_is_what_render_draws() {
     let dir = directory(&[("ball.scn", BALL)]);

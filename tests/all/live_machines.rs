@@ -256,3 +256,30 @@ fn a_second_machine_runs_beside_the_first() {
     assert!(is_run(&shown, 0, serial));
     assert_eq!(live.get("2/machine.png").0, 404);
 }
+
+/// What is shown is the first picture, what is built moves.
+#[test]
+fn what_is_built_of_a_scene_that_moves_moves() {
+    let scene = "image 8 x 8 inks black, white;
+state at: int = 3 in 0 .. 7 -> (at + 1) mod 8;
+draw (x, y) = ink(if x == at then 1 else 0);
+";
+    let dir = directory(&[("step.scn", scene)]);
+    let live = Live::begin(dir.path(), &["step.scn", "-t", "6502"]);
+    live.run(1);
+    let serial = live.edit(json!({"set": {"at": [5]}}));
+    let shown = live.run(serial);
+    let cycles = &shown["panels"][0]["machine"]["cycles"];
+    let run = ["run", "step.scn", "-t", "6502", "--set", "at=5", "--json"];
+    assert_eq!(*cycles, json(dir.path(), &run)["cycles"]);
+    live.post("build", &json!({}));
+    let shown = live.until("files", |s| s["built"].is_object());
+    assert_eq!(shown["built"]["files"], json!(["step.asm", "step.prg"]));
+    assert_eq!(shown["panels"][0]["machine"]["cycles"], *cycles);
+    let build = [
+        "build", "step.scn", "-t", "6502", "--set", "at=5", "-o", "b",
+    ];
+    success(dir.path(), &build);
+    let bytes = |name: &str| std::fs::read(dir.path().join(name)).expect("a file");
+    assert_eq!(bytes("step.prg"), bytes("b/step.prg"));
+}

@@ -16,10 +16,16 @@ export function frontier(section, place, told) {
   let known = null;
   let run = null;
   let drawn = "";
+  let begun = false;
   const taken = () => points.findIndex((p) => run && p.options === (run.options ?? "") && p.format === run.format);
   const canTake = () => Boolean(known && run && !known.stale);
 
-  place("tune").addEventListener("click", () => (known?.stage === "running" || known?.waits ? told.stop() : told.ask("tune")));
+  place("tune").addEventListener("click", () => (known?.stage === "running" || known?.waits ? told.stop() : begin()));
+
+  function begin() {
+    begun = true;
+    told.ask("tune");
+  }
 
   function take(k) {
     if (!canTake()) return;
@@ -86,8 +92,9 @@ export function frontier(section, place, told) {
   }
   new ResizeObserver(draw).observe(place("plot"));
 
-  const figures = (p) => duration(p.seconds) + ", " + count(p.cycles) + " cycles, " + share(p.error) + " of the pixels (" + count(p.unlike_native) +
-    ") in another ink, " + count(p.memory) + " bytes" + (p.mode ? ", mode " + p.mode : "") + ": " + words(p, told.formats() > 1);
+  const measured = (p) => duration(p.seconds) + ", " + count(p.cycles) + " cycles, " + share(p.error) + " of the pixels (" + count(p.unlike_native) +
+    ") in another ink, " + count(p.memory) + " bytes" + (p.mode ? ", mode " + p.mode : "");
+  const figures = (p) => measured(p) + ": " + words(p, told.formats() > 1);
 
   function said() {
     if (known.waits) return "The search begins once the machine has done what it does now.";
@@ -120,8 +127,11 @@ export function frontier(section, place, told) {
       say(place("frontier-said").id, said());
       table();
       draw();
+      // Whoever asked for it sees where it will be.
+      if (begun) section.scrollIntoView();
+      begun = false;
       const at = taken();
-      sayOptions(place("point-said"), at < 0 ? "" : figures(points[at]));
+      sayOptions(place("point-said"), at < 0 ? "" : measured(points[at]) + ".");
     },
   };
 }

@@ -152,7 +152,7 @@ follow((news) => {
 
 if (alone) {
   const scene = place("scene");
-  scene.append(option("", "gallery"), ...alone.scenes.map((name) => option(name, name)));
+  scene.append(option("", "choose…"), ...alone.scenes.map((name) => option(name, name)));
   scene.addEventListener("change", () => {
     if (scene.value) alone.open(scene.value);
     scene.value = "";

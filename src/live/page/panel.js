@@ -89,7 +89,7 @@ export function panel(k, machines, told) {
     image.image.alt = unlike ? "Where the picture of " + (two ? name : "the machine") + " is unlike the native one: darker in red, lighter in blue"
       : which + "’s picture, " + state.size.join(" by ") + " pixels";
     let said = wrong ? "waits for a right scene" : old ? waitsFor(shown) : stages[state.stage];
-    if (state.stage === "running" && !old) said = "running, row " + state.rows + " of " + state.size[1];
+    if (state.stage === "running" && !old) said = "running, row " + state.rows + "/" + state.size[1];
     if (state.stage === "done" && !old) said = state.size.join(" × ");
     say(id("machine-said"), said);
     const rows = place("rows");
@@ -162,7 +162,7 @@ function factsOf(state) {
     const mode = state.plan.mode ? "mode " + state.plan.mode + ", " : "";
     out.push(["format", state.plan.format, mode + state.plan.inks + " inks"]);
     if (state.plan.expected !== null) {
-      out.push(["expected error", percent(state.plan.expected), "of the pixels; " + percent(state.plan.goal) + " may be"]);
+      out.push(["expected error", percent(state.plan.expected), "of the pixels; up to " + percent(state.plan.goal) + " allowed"]);
     }
   }
   if (state.unlike_model !== null) {

@@ -100,6 +100,7 @@ impl SceneFile {
     /// Where it cannot be written.
     pub fn save(&self, text: &str, forced: bool) -> Outcome<Saved> {
         let mut known = self.known();
+        self.stays()?;
         let is_known = || match scene::text(&self.path) {
             Ok((_, now)) => Known::of(now).text == known.text,
             // What is there and cannot be read is somebody's, too.
@@ -118,6 +119,17 @@ impl SceneFile {
         Ok(Saved::Yes)
     }
 
+    /// Fails where the file was made a link to one outside of its directory since it was opened.
+    fn stays(&self) -> Outcome<()> {
+        if !files::is_elsewhere(&self.path, self.directory()) {
+            return Ok(());
+        }
+        Err(Failure::Wrong(format!(
+            "{} has become a link to a file outside of its directory: begin again with that",
+            self.named.display()
+        )))
+    }
+
     /// Waits until what is being saved is saved.
     pub fn finish(&self) {
         drop(self.known());
@@ -129,6 +141,7 @@ impl SceneFile {
     /// Where it cannot be read.
     pub fn again(&self) -> Outcome<Option<(String, String)>> {
         let mut known = self.known();
+        self.stays()?;
         let now = Known::of(scene::text(&self.path)?.1);
         if now.text == known.text {
             return Ok(None);
