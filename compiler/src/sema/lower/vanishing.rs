@@ -5,14 +5,14 @@
 //! its gradient is 0 / 0, or a quotient of roundings next to it. So it is looked for a root that
 //! may be about 0 where the formula is, backwards from that (constraint propagation as of HC4,
 //! Benhamou et al. 1999, one pass): on the surface of a capsule, `length(p - nearest) - r`, the
-//! root is r. A length of what moves smoothly is 0 at single points; only what is cut or chosen
+//! root is r, and on that of a rounded box no less. A length of what moves smoothly is 0 at single points; only what is cut or chosen
 //! is 0 on a whole face.
 
 use super::Lower;
 use super::derive::Formula;
 use crate::ir::graph::{Loop, Node, NodeId};
 use rustc_hash::FxHashMap;
-use slowlight_routine::Op;
+use slowlight_routine::{Op, Value};
 use std::collections::BTreeSet;
 
 /// What counts as about 0.
@@ -71,29 +71,35 @@ impl Lower<'_> {
         [a, b]: [NodeId; 2],
         (lo, hi): Extent,
     ) -> Option<Vec<(NodeId, Extent)>> {
-        let (x, y) = (self.constant_span(a), self.constant_span(b));
-        Some(match (op, x, y) {
-            (Op::Add, _, Some((l, h))) => vec![(a, (lo - h, hi - l))],
-            (Op::Add, Some((l, h)), _) => vec![(b, (lo - h, hi - l))],
-            (Op::Sub, _, Some((l, h))) => vec![(a, (lo + l, hi + h))],
-            (Op::Sub, Some((l, h)), _) => vec![(b, (l - hi, h - lo))],
-            (Op::Neg, ..) => vec![(a, (-hi, -lo))],
-            (Op::Abs, ..) => vec![(a, (-hi, hi))],
+        let (x, y) = (self.written_extent(a), self.written_extent(b));
+        Some(match op {
+            Op::Add => vec![(a, (lo - y.1, hi - y.0)), (b, (lo - x.1, hi - x.0))],
+            Op::Sub => vec![(a, (lo + y.0, hi + y.1)), (b, (x.0 - hi, x.1 - lo))],
+            Op::Neg => vec![(a, (-hi, -lo))],
+            Op::Abs => vec![(a, (-hi, hi))],
             // What the result is not has no part in its gradient.
-            (Op::Min | Op::Max, ..) => vec![(a, (lo, hi)), (b, (lo, hi))],
-            (Op::Mul, _, Some((l, _))) if l > 0.0 => vec![(a, (lo.min(0.0) / l, hi / l))],
-            (Op::Mul, Some((l, _)), _) if l > 0.0 => vec![(b, (lo.min(0.0) / l, hi / l))],
+            Op::Min | Op::Max => vec![(a, (lo, hi)), (b, (lo, hi))],
+            Op::Mul if y.0 > 0.0 && y.1.is_finite() => vec![(a, divided((lo, hi), y))],
+            Op::Mul if x.0 > 0.0 && x.1.is_finite() => vec![(b, divided((lo, hi), x))],
             _ => return None,
         })
     }
 
-    /// What a constant or a param may be.
-    fn constant_span(&self, id: NodeId) -> Option<Extent> {
+    /// What a value may be as it is written: a constant, a param, what is cut there.
+    fn written_extent(&self, id: NodeId) -> Extent {
         if let Some(value) = self.b.value(id) {
-            return Some((value.real(), value.real()));
+            return (value.real(), value.real());
         }
-        let range = self.b.param_at(id)?.range?;
-        Some((range.lo, range.hi))
+        if let Some(range) = self.b.param_at(id).and_then(|param| param.range) {
+            return (range.lo, range.hi);
+        }
+        let bound = |args: [NodeId; 2]| args.into_iter().find_map(|arg| self.b.value(arg));
+        match self.b.node(id) {
+            Node::Apply(Op::Sqrt | Op::Abs, _) => (0.0, f64::INFINITY),
+            Node::Apply(Op::Min, args) => (ALL.0, bound(args).map_or(ALL.1, Value::real)),
+            Node::Apply(Op::Max, args) => (bound(args).map_or(ALL.0, Value::real), ALL.1),
+            _ => ALL,
+        }
     }
 
     /// Whether a value is of others that are cut or chosen, or of the least that a loop has found,
@@ -125,4 +131,10 @@ impl Lower<'_> {
         }
         false
     }
+}
+
+/// An extent divided by one above 0.
+fn divided((lo, hi): Extent, (l, h): Extent) -> Extent {
+    let lo = if lo < 0.0 { lo / l } else { lo / h };
+    (lo, if hi > 0.0 { hi / l } else { hi / h })
 }

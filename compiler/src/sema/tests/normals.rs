@@ -1,12 +1,14 @@
 //! Normals of distances whose length is 0 on the surface: no noise, natively and in fixed point.
 
 use crate::eval::native::Native;
+use crate::ir::graph::*;
 use crate::plan::Goal;
 use crate::plan::model::ModelRun;
 use crate::planner::plan;
 use crate::scene;
 use crate::sema::Options;
 use crate::targets::{default_mode, find};
+use slowlight_routine::Value;
 
 /// A wall as boxes have it, a prism by the distance to its outline, a capped cylinder.
 const SHAPES: [&str; 3] = [
@@ -68,4 +70,38 @@ fn normals_of_flat_faces_are_the_faces() {
     let lit = (0..48 * 48).filter(|k| native.pixel(k % 48, k / 48).ink == 1);
     // A third of the picture is the wall; with noise half of that would be dark.
     assert!(lit.count() > 700);
+}
+
+/// Whether a shape's normal is made of differences: of its distance 1/256 to either side.
+fn is_by_differences(dist: &str) -> bool {
+    let shape = format!("dist(p) = {dist};");
+    let scene = scene::check("test", &text(&shape, "h.normal.x"));
+    assert!(scene.is_right(), "{dist}: {:?}", scene.diagnostics);
+    let graph = scene.lower(&Options::default()).unwrap();
+    let apart = Constant::new(Value::Real(1.0 / 256.0));
+    graph.nodes.contains(&Node::Const(apart))
+}
+
+#[test]
+fn only_lengths_that_may_be_0_on_the_surface_are_differences() {
+    let length = "length((max(p.x, 0), max(p.y, 0), max(p.z, 0)))";
+    let inner = "min(max(p.x, max(p.y, p.z)), 0)";
+    for dist in [
+        format!("{length} + {inner}"),
+        format!("{inner} + {length}"),
+        format!("max({length}, p.y - 0.5)"),
+        format!("2 * {length} + p.x * 0.1"),
+    ] {
+        assert!(is_by_differences(&dist), "{dist}");
+    }
+    for dist in [
+        format!("{length} - 0.3"),
+        format!("{length} + {inner} - 0.1"),
+        format!("min({length} - 0.2, p.y)"),
+        format!("0.5 * ({length} - 0.2)"),
+        "length(p - (0, clamp(p.y, -0.5, 0.5), 0)) - 0.2".to_owned(),
+        "length((p.x, p.y, p.z)) - 0.8".to_owned(),
+    ] {
+        assert!(!is_by_differences(&dist), "{dist}");
+    }
 }
