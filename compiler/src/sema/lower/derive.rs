@@ -11,12 +11,19 @@ use crate::ir::graph::{Node, NodeId};
 use crate::sema::program::*;
 use crate::sema::ty::Ty;
 use crate::source::Span;
-use slowlight_routine::Type;
+use slowlight_routine::{Op, Type};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-/// How far apart the differences are that stand for a gradient which is none on the surface.
+/// Where hits are told apart from what is so far off, or less, differences may stand for a gradient
+/// which is none on the surface.
 const NEAR: f64 = 1.0 / 256.0;
+
+/// In so many times that: where it is a few last places, differences are noise, too.
+const APART: f64 = 2.0;
+
+/// How far apart they are at least. Where hits are told better, they stand for it only there.
+const EXACT: f64 = 1e-6;
 
 /// Three nodes that stand for a point's coordinates.
 pub(super) type Markers = [NodeId; 3];
@@ -103,22 +110,58 @@ impl<'a> Lower<'a> {
         let Some(formula) = formula else {
             return Ok(None);
         };
-        let asked = self.options.ways.differences.map(|apart| apart.value());
-        // Formats that cannot tell points so near stop before the surface.
-        let singular = || is_distance && self.options.offset <= NEAR && self.vanishes(&formula);
-        if let Some(apart) = asked.or_else(|| singular().then_some(NEAR)) {
-            let apart = Val::Node(self.real(apart, span));
-            let args = vec![Val::Shape(shape.clone()), p, apart];
-            return self.library("sloped", Ty::Shape, args, span).map(Some);
+        if let Some(apart) = self.options.ways.differences {
+            return self
+                .sloped("sloped", (shape, p), apart.value(), span)
+                .map(Some);
         }
-        let point = self.vector(p, 3, span)?;
-        let Ok(point) = Markers::try_from(point) else {
+        let (near, offset) = ("sloped_distance", self.options.offset);
+        // Formats that cannot tell points so near stop before the surface.
+        let singular = is_distance && offset <= NEAR && self.vanishes(&formula);
+        if singular && offset > EXACT {
+            return self
+                .sloped(near, (shape, p), APART * offset, span)
+                .map(Some);
+        }
+        let Ok(point) = Markers::try_from(self.vector(p.clone(), 3, span)?) else {
             return Err(self.confused(span));
         };
         let gradient = self.gradient(&formula, &point, span)?;
         let gradient = Val::parts(gradient.map(Val::Node).to_vec());
-        self.library("unit", Ty::Vector(3), vec![gradient], span)
-            .map(Some)
+        let normal = self.library("unit", Ty::Vector(3), vec![gradient], span)?;
+        if !singular {
+            return Ok(Some(normal));
+        }
+        // Exact, but where a hit has met the surface to the last digits.
+        let Some(distance) = self.facet(shape, FacetKind::Dist, p.clone(), span)? else {
+            return Err(self.confused(span));
+        };
+        let distance = self.node(distance, &Ty::Real, span)?;
+        let distance = self.b.apply(Op::Abs, &[distance], span);
+        let offset = self.real(offset, span);
+        let met = self.b.apply(Op::Less, &[distance, offset], span);
+        let sloped = self.sloped(near, (shape, p), EXACT, span)?;
+        let (near, far) = (self.vector(sloped, 3, span)?, self.vector(normal, 3, span)?);
+        let parts = near.into_iter().zip(far);
+        let parts = parts.map(|(near, far)| Val::Node(self.select(met, near, far, span)));
+        Ok(Some(Val::parts(parts.collect())))
+    }
+
+    /// What a library function makes of differences so far apart in place of a gradient.
+    fn sloped(
+        &mut self,
+        by: &'static str,
+        (shape, p): (&Rc<Shape>, Val),
+        apart: f64,
+        span: Span,
+    ) -> Found<Val> {
+        let apart = Val::Node(self.real(apart, span));
+        self.library(
+            by,
+            Ty::Shape,
+            vec![Val::Shape(shape.clone()), p, apart],
+            span,
+        )
     }
 
     /// The hit of an implicit function of degree 2 at most along the ray.

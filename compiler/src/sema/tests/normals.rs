@@ -72,13 +72,17 @@ fn normals_of_flat_faces_are_the_faces() {
     assert!(lit.count() > 700);
 }
 
-/// Whether a shape's normal is made of differences: of its distance 1/256 to either side.
+/// Whether a shape's normal is made of differences: of its distance twice the offset apart, over that.
 fn is_by_differences(dist: &str) -> bool {
     let shape = format!("dist(p) = {dist};");
     let scene = scene::check("test", &text(&shape, "h.normal.x"));
     assert!(scene.is_right(), "{dist}: {:?}", scene.diagnostics);
-    let graph = scene.lower(&Options::default()).unwrap();
-    let apart = Constant::new(Value::Real(1.0 / 256.0));
+    let options = Options {
+        offset: 0.003,
+        ..Options::default()
+    };
+    let graph = scene.lower(&options).unwrap();
+    let apart = Constant::new(Value::Real(1.0 / (4.0 * 0.006)));
     graph.nodes.contains(&Node::Const(apart))
 }
 
