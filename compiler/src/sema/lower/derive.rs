@@ -22,8 +22,10 @@ const NEAR: f64 = 1.0 / 256.0;
 /// In so many times that: where it is a few last places, differences are noise, too.
 const APART: f64 = 2.0;
 
-/// How far apart they are at least. Where hits are told better, they stand for it only there.
-const EXACT: f64 = 1e-6;
+/// How far apart they are at least. Where hits are told better, they stand for it only where one
+/// is within such a part of the offset: there the surface is met to the last digits.
+const EXACT: f64 = 1e-7;
+const MET: f64 = 1e-3;
 
 /// Three nodes that stand for a point's coordinates.
 pub(super) type Markers = [NodeId; 3];
@@ -111,17 +113,16 @@ impl<'a> Lower<'a> {
             return Ok(None);
         };
         if let Some(apart) = self.options.ways.differences {
-            return self
-                .sloped("sloped", (shape, p), apart.value(), span)
-                .map(Some);
+            let sloped = self.sloped("sloped", (shape, p), apart.value(), span);
+            return sloped.map(Some);
         }
-        let (near, offset) = ("sloped_distance", self.options.offset);
+        let offset = self.options.offset;
         // Formats that cannot tell points so near stop before the surface.
         let singular = is_distance && offset <= NEAR && self.vanishes(&formula);
-        if singular && offset > EXACT {
-            return self
-                .sloped(near, (shape, p), APART * offset, span)
-                .map(Some);
+        if singular && offset >= EXACT {
+            let apart = APART * offset;
+            let sloped = self.sloped("sloped_distance", (shape, p), apart, span);
+            return sloped.map(Some);
         }
         let Ok(point) = Markers::try_from(self.vector(p.clone(), 3, span)?) else {
             return Err(self.confused(span));
@@ -138,9 +139,9 @@ impl<'a> Lower<'a> {
         };
         let distance = self.node(distance, &Ty::Real, span)?;
         let distance = self.b.apply(Op::Abs, &[distance], span);
-        let offset = self.real(offset, span);
+        let offset = self.real(MET * offset, span);
         let met = self.b.apply(Op::Less, &[distance, offset], span);
-        let sloped = self.sloped(near, (shape, p), EXACT, span)?;
+        let sloped = self.sloped("sloped_evenly", (shape, p), EXACT, span)?;
         let (near, far) = (self.vector(sloped, 3, span)?, self.vector(normal, 3, span)?);
         let parts = near.into_iter().zip(far);
         let parts = parts.map(|(near, far)| Val::Node(self.select(met, near, far, span)));
