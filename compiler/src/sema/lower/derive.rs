@@ -118,7 +118,8 @@ impl<'a> Lower<'a> {
         }
         let offset = self.options.offset;
         // Formats that cannot tell points so near stop before the surface.
-        let singular = is_distance && offset <= NEAR && self.vanishes(&formula);
+        let may_be = is_distance && self.is_met && offset <= NEAR;
+        let singular = may_be && self.vanishes(&formula);
         if singular && offset >= EXACT {
             let apart = APART * offset;
             let sloped = self.sloped("sloped_distance", (shape, p), apart, span);

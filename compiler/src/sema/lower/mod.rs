@@ -165,6 +165,8 @@ struct Lower<'a> {
     all_turns: bool,
     /// What stands for the point where a facet is read as a formula.
     markers: Option<derive::Markers>,
+    /// Whether normals here are of a hit, which has met its surface: a march stops before it.
+    is_met: bool,
     /// The boxes of formulas, by their roots and levels.
     extents: FxHashMap<(NodeId, u64), Extent>,
     extent_work: u64,
@@ -242,6 +244,7 @@ impl<'a> Lower<'a> {
             loops: 0,
             all_turns: false,
             markers: None,
+            is_met: false,
             extents: FxHashMap::default(),
             extent_work: bounds::ALL_WORK,
             surfaces: FxHashMap::default(),

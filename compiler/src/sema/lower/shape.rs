@@ -252,7 +252,12 @@ impl<'a> Lower<'a> {
     ) -> Found<Val> {
         match &found.known {
             Some((_, normal)) => self.direction(normal.clone(), span),
-            None => self.shape_normal(shape, point, span),
+            None => {
+                let outer = std::mem::replace(&mut self.is_met, true);
+                let normal = self.shape_normal(shape, point, span);
+                self.is_met = outer;
+                normal
+            }
         }
     }
 
