@@ -5,8 +5,8 @@
 //! its gradient is 0 / 0, or a quotient of roundings next to it. So it is looked for a root that
 //! may be about 0 where the formula is, backwards from that (constraint propagation as of HC4,
 //! Benhamou et al. 1999, one pass): on the surface of a capsule, `length(p - nearest) - r`, the
-//! root is r, and on that of a rounded box no less. A length of what moves smoothly is 0 at single points; only what is cut or chosen
-//! is 0 on a whole face.
+//! root is r, and on that of a rounded box no less. A length of what moves smoothly is 0 at single
+//! points; only what is cut or chosen is 0 on a whole face.
 
 use super::Lower;
 use super::derive::Formula;
@@ -63,8 +63,8 @@ impl Lower<'_> {
         false
     }
 
-    /// What operands may be where an operation's result is within a span; nothing where that
-    /// tells nothing of them.
+    /// What operands may be where an operation's result is within an extent; nothing where
+    /// that tells nothing of them.
     fn backwards(
         &self,
         op: Op,

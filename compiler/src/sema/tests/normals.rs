@@ -68,11 +68,11 @@ fn normals_of_flat_faces_are_the_faces() {
     let graph = scene.lower(&Options::default()).unwrap();
     let mut native = Native::new(&graph);
     let lit = (0..48 * 48).filter(|k| native.pixel(k % 48, k / 48).ink == 1);
-    // A third of the picture is the wall; with noise half of that would be dark.
+    // A third of the picture is the wall.
     assert!(lit.count() > 700);
 }
 
-/// Whether a shape's normal is made of differences: of its distance twice the offset apart, over that.
+/// Whether a shape's normal is made of differences of its distance, over four times how far apart.
 fn is_by_differences(dist: &str) -> bool {
     let shape = format!("dist(p) = {dist};");
     let scene = scene::check("test", &text(&shape, "h.normal.x"));
