@@ -28,12 +28,21 @@ pub(super) fn mixed(screen: &ScreenArgs, scene: &Scene, chosen: Chosen) -> Outco
     let Some(other) = formats(target).find(has_short) else {
         return Ok(chosen);
     };
-    let plan = match screen.in_format_of(other).plan(scene, target, &[]) {
+    // On the same screen: that long numbers fit into another was seen to be none.
+    let mode = Some(chosen.plan.mode.name.to_owned()).filter(|name| !name.is_empty());
+    let by = ScreenArgs {
+        mode,
+        ..screen.in_format_of(other)
+    };
+    let plan = match by.plan(scene, target, &[]) {
         Err(Failure::TooLarge(_) | Failure::Scene(_)) => return Ok(chosen),
         plan => plan?,
     };
     // The whole picture is looked at, whatever rows are asked for.
-    let rows = screen.unsearched(scene, other)?.rows;
+    let rows = match screen.rows {
+        Some(_) => screen.unsearched(scene, other)?.rows,
+        None => plan.rows,
+    };
     let whole = |plan: &PlannedScene| {
         let mut whole = plan.clone();
         whole.rows = rows;

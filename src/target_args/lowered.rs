@@ -4,7 +4,6 @@
 use super::ScreenArgs;
 use crate::estimate;
 use crate::failure::{Failure, Outcome};
-use crate::fit;
 use crate::moving;
 use crate::need;
 use crate::scene::{Limits, Precision, Scene};
@@ -14,6 +13,7 @@ use slowlight_compiler::planner::pipeline::Pass;
 use slowlight_compiler::planner::{PlannedScene, plan_among};
 use slowlight_compiler::sema::{INSTANCES, Instancing, Ways};
 use slowlight_compiler::targets::Target;
+use std::cell::Cell;
 
 /// Of how many shapes a scene may be for each to be code of its own, where it could be otherwise.
 const MOST: usize = 40;
@@ -46,16 +46,25 @@ impl ScreenArgs {
 
     /// What `plan` makes of these options; where its program does not fit, with less memory for
     /// how shapes are found, and where it had to be made small for its machine, with that if it is
-    /// quicker.
+    /// quicker. `plan` says how shapes are found in the plans that it makes.
     ///
     /// # Errors
     /// Where none does, that of the first.
     pub(super) fn smaller(
         &self,
         scene: &Scene,
-        plan: impl Fn(&ScreenArgs) -> Outcome<PlannedScene>,
+        plan: impl Fn(&ScreenArgs, &dyn Fn(Instancing)) -> Outcome<PlannedScene>,
     ) -> Outcome<PlannedScene> {
-        let first = plan(self);
+        // What takes less memory for them than any of the first plans, as those were of the ways
+        // that take less already where the others were too large.
+        let most = Cell::new(Instancing::Separate);
+        let first = plan(self, &|taken| {
+            most.set(most.get().min(match taken {
+                // Which is asked for only where all are looked at.
+                Instancing::Seen => self.limits().ways.instancing,
+                taken => taken,
+            }));
+        });
         let is_small = match &first {
             Ok(plan) => plan.is_made_small(),
             Err(failure) => matches!(failure, Failure::TooLarge(_)),
@@ -63,14 +72,13 @@ impl ScreenArgs {
         if !is_small || scene.shapes() < INSTANCES {
             return first;
         }
-        let less = LESS
-            .into_iter()
-            .filter(|less| *less > self.limits().ways.instancing);
+        let less = LESS.into_iter().filter(|less| *less > most.get());
         let mut others = less.map(|less| {
-            plan(&ScreenArgs {
+            let less = ScreenArgs {
                 instancing: less,
                 ..self.clone()
-            })
+            };
+            plan(&less, &|_| {})
         });
         let Ok(fits) = first else {
             return others.find(Result::is_ok).unwrap_or(first);
@@ -98,7 +106,7 @@ impl ScreenArgs {
         }
     }
 
-    /// The graph of a scene.
+    /// The graph of a scene, and how its shapes are found.
     ///
     /// # Errors
     /// Where it does not compile.
@@ -108,11 +116,11 @@ impl ScreenArgs {
         target: &'static Target,
         goal: &Goal,
         set: &[(String, Vec<f64>)],
-    ) -> Outcome<Graph> {
-        let graph = self.of_ways(scene, target, goal, set)?;
+    ) -> Outcome<(Graph, Instancing)> {
+        let (graph, taken) = self.of_ways(scene, target, goal, set)?;
         match moving::refused(&graph, target, self.refine.is_some()) {
             Some(refused) => Err(scene.wrong(vec![refused])),
-            None => Ok(graph),
+            None => Ok((graph, taken)),
         }
     }
 
@@ -122,7 +130,7 @@ impl ScreenArgs {
         target: &'static Target,
         goal: &Goal,
         set: &[(String, Vec<f64>)],
-    ) -> Outcome<Graph> {
+    ) -> Outcome<(Graph, Instancing)> {
         let limits = self.limits();
         let most = scene.shapes();
         let lower = |instancing, set: &[(String, Vec<f64>)]| {
@@ -134,37 +142,31 @@ impl ScreenArgs {
             scene.graph_within(Some(goal.mode.inks), Precision::of(target), set, limits)
         };
         let asked = limits.ways.instancing;
+        let taking = |taken| Ok((lower(taken, set)?, taken));
         if asked == Instancing::Separate || most < INSTANCES {
-            return lower(asked, set);
+            return taking(asked);
         }
         // An edited program is that of the scene as it is.
         let by = |instancing| lower(instancing, &[]);
         let (first, separate) = (by(asked)?, by(Instancing::Separate)?);
         if size(&separate) == size(&first) {
-            return lower(asked, set);
+            return taking(asked);
         }
         let whole = Goal {
             rows: None,
             ..goal.clone()
         };
-        // Nothing where the program is larger than what the machine has for it.
-        let modelled = self.fuel.map(|fuel| fuel.modelled);
+        // Nothing where the program is larger than what the machine has for it. Which values may
+        // be narrow takes longest to find, and as much in all of them.
         let takes = |graph: &Graph| {
-            let fuel = (0, modelled.unwrap_or(u64::MAX));
-            let plan = plan_among(graph, target, &whole, fuel, self.passes.left_out());
-            let Ok(plan) = plan else {
-                return Ok(None);
-            };
-            // Which is quicker hangs on it.
-            if modelled.is_some_and(|most| plan.modelled() >= most) {
-                return Err(fit::too_dear());
-            }
-            Ok(fits(&plan).then(|| estimate::cycles(&plan)))
+            let plan = plan_among(graph, target, &whole, (0, 0), self.passes.left_out());
+            let plan = plan.ok().filter(fits)?;
+            Some(estimate::cycles(&plan))
         };
-        let mut best = (takes(&first)?, asked);
+        let mut best = (takes(&first), asked);
         for less in LESS {
             if best.0.is_none() && less > asked {
-                best = (takes(&by(less)?)?, less);
+                best = (takes(&by(less)?), less);
             }
         }
         if most <= MOST {
@@ -175,14 +177,14 @@ impl ScreenArgs {
                     .iter()
                     .all(|other| size(other) != size(&seen))
                 {
-                    let cycles = takes(&seen)?;
+                    let cycles = takes(&seen);
                     best = least(best, (cycles, Instancing::Seen));
                 }
             }
-            let cycles = takes(&separate)?.map(|cycles| cycles / SEARCHED);
+            let cycles = takes(&separate).map(|cycles| cycles / SEARCHED);
             best = least(best, (cycles, Instancing::Separate));
         }
-        lower(best.1, set)
+        taking(best.1)
     }
 }
 

@@ -5,6 +5,7 @@ mod columns;
 mod heap;
 mod items;
 mod lowered;
+mod machine;
 mod passes;
 mod post;
 mod read;
@@ -33,7 +34,7 @@ use slowlight_compiler::plan::Goal;
 use slowlight_compiler::planner::{PlannedScene, SEARCH};
 use slowlight_compiler::planner::{plan_among, plan_as_written, plan_with_every_shade};
 use slowlight_compiler::sema::Instancing;
-use slowlight_compiler::targets::{self, Language, Mode, System, Target};
+use slowlight_compiler::targets::{self, Language, Mode, Target};
 use std::sync::Once;
 
 /// Screen and rows.
@@ -218,10 +219,14 @@ impl ScreenArgs {
         let modes = self.modes(target, scene)?;
         let (_waiting, _blind) = (Waiting::new("planning"), interrupt::blind());
         let name = |span| scene.called_at(span);
-        let plan = self.smaller(scene, |by| {
-            let made = |mode, fuel| match by.plan_in((mode, fuel), scene, target, set)? {
-                plan if plan.was_cut() && self.fuel.is_some() => Err(fit::too_dear()),
-                plan => Ok(plan),
+        let plan = self.smaller(scene, |by, taken| {
+            let made = |mode, fuel| {
+                let (plan, by) = by.plan_in((mode, fuel), scene, target, set)?;
+                taken(by);
+                match plan.was_cut() && self.fuel.is_some() {
+                    true => Err(fit::too_dear()),
+                    false => Ok(plan),
+                }
             };
             fit::fit_within(
                 modes.clone(),
@@ -259,7 +264,7 @@ impl ScreenArgs {
             rows: None,
             ..self.clone()
         };
-        whole.plan_in((mode, 0), scene, target, &[])
+        Ok(whole.plan_in((mode, 0), scene, target, &[])?.0)
     }
 
     /// Plans a scene for the best mode, whether or not its program fits.
@@ -270,38 +275,20 @@ impl ScreenArgs {
         let target = self.formatted(target)?;
         let mode = self.mode(target, scene)?;
         let _blind = interrupt::blind();
-        self.plan_in((mode, SEARCH), scene, target, &[])
+        Ok(self.plan_in((mode, SEARCH), scene, target, &[])?.0)
     }
 
+    /// A plan for a mode by so much fuel, and how shapes are found in it.
     fn plan_in(
         &self,
         (mode, fuel): (Mode, u64),
         scene: &Scene,
         target: &'static Target,
         set: &[(String, Vec<f64>)],
-    ) -> Outcome<PlannedScene> {
+    ) -> Outcome<(PlannedScene, Instancing)> {
         // Whoever wanted it may have stopped the work: a plan takes a second, and a format many.
         interrupt::check()?;
-        if self.os.is_some() && target.system != System::Hack {
-            let message = format!("--os is Jack's, and {} has its own", target.name);
-            return Err(Failure::Usage(message));
-        }
-        let basic = target.system.language() == Language::Basic;
-        if self.style.is_some() && !basic && !is_6502(target) {
-            let message = format!(
-                "--style is BASIC's and the 6502's; {} has one way to write",
-                target.name
-            );
-            return Err(Failure::Usage(message));
-        }
-        if self.undocumented && !is_6502(target) {
-            let message = format!("--undocumented is the 6502's; {} is none", target.name);
-            return Err(Failure::Usage(message));
-        }
-        if self.page.is_some() && !matches!(target.system, System::BbcBasic | System::BbcCode) {
-            let message = format!("--page is the BBC Micro's; {} has none", target.name);
-            return Err(Failure::Usage(message));
-        }
+        self.check_machine(target)?;
         self.check_toot(target)?;
         self.check_columns(target)?;
         let (_, height) = scene.size();
@@ -314,7 +301,7 @@ impl ScreenArgs {
             rows: asked,
             plot: !self.no_plot,
         };
-        let graph = self.lowered(scene, target, &goal, set)?;
+        let (graph, taken) = self.lowered(scene, target, &goal, set)?;
         let graph = self.sampled(&graph)?;
         let planned = match (self.as_written, self.every_shade) {
             (true, _) => plan_as_written(&graph, target, &goal),
@@ -331,6 +318,7 @@ impl ScreenArgs {
         };
         let mut plan = planned.map_err(|said| scene.wrong(said))?;
         of_columns(scene, &plan)?;
+        let basic = target.system.language() == Language::Basic;
         plan.listing = basic && self.style == Some(Style::Listing);
         plan.toot = self.is_toot();
         plan.page = self.page;
@@ -350,7 +338,7 @@ impl ScreenArgs {
                 seen(height, mode.height).0,
                 seen(height, mode.height).1
             ))),
-            _ => Ok(plan),
+            _ => Ok((plan, taken)),
         }
     }
 }
