@@ -149,8 +149,9 @@ impl ScreenArgs {
         // An edited program is that of the scene as it is.
         let by = |instancing| lower(instancing, &[]);
         let (first, separate) = (by(asked)?, by(Instancing::Separate)?);
+        // None are alike: they take as much by any way.
         if size(&separate) == size(&first) {
-            return taking(asked);
+            return Ok((lower(asked, set)?, Instancing::Separate));
         }
         let whole = Goal {
             rows: None,
