@@ -9,7 +9,7 @@
 //! the machine has to get right, too.
 
 use slowlight_compiler::analysis::points::Points;
-use slowlight_compiler::eval::arithmetic::{Arithmetic, Exact};
+use slowlight_compiler::eval::arithmetic::Arithmetic;
 use slowlight_compiler::eval::run::Run;
 use slowlight_compiler::ir::graph::{Graph, NodeId, ParamId};
 use slowlight_compiler::ir::tree::Place;
@@ -28,7 +28,6 @@ pub struct Lost {
 
 struct Losing<'p> {
     plan: &'p Plan,
-    exact: Exact<'p>,
     points: &'p Points,
     first: RefCell<Option<String>>,
     /// A param that is rounded, which is said only where nothing else is lost.
@@ -93,7 +92,7 @@ impl Arithmetic for &Losing<'_> {
     type Value = Value;
 
     fn constant(&self, value: Value) -> Value {
-        self.exact.constant(value)
+        value
     }
 
     fn param(&self, id: ParamId) -> Value {
@@ -139,15 +138,15 @@ impl Arithmetic for &Losing<'_> {
     }
 
     fn gather(&self, received: Value, sent: Value) -> Value {
-        self.exact.gather(received, sent)
+        Op::Add.eval(&[received, sent])
     }
 
     fn truth(&self, value: Value) -> bool {
-        self.exact.truth(value)
+        value.truth()
     }
 
     fn int(&self, value: Value) -> i32 {
-        self.exact.int(value)
+        value.int()
     }
 }
 
@@ -155,7 +154,6 @@ impl Arithmetic for &Losing<'_> {
 pub fn lost(plan: &Plan) -> Option<Lost> {
     let losing = Losing {
         plan,
-        exact: Exact(&plan.graph),
         points: plan.points()?,
         first: RefCell::default(),
         rounded: RefCell::default(),

@@ -1,7 +1,7 @@
 //! Instrumented execution: a picture run in `f64`, with the params as the scene has them, and
 //! what ran.
 
-use crate::eval::arithmetic::{Arithmetic, Exact};
+use crate::eval::arithmetic::{Arithmetic, Exact, Word};
 use crate::ir::graph::*;
 use crate::ir::tree::Statement;
 use rustc_hash::FxHashMap;
@@ -68,22 +68,23 @@ impl<'g, C: Fn(&Statement) -> f64> Meter<'g, C> {
 }
 
 impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
-    type Value = Value;
+    type Value = Word;
 
-    fn constant(&self, value: Value) -> Value {
+    fn constant(&self, value: Value) -> Word {
         self.exact.constant(value)
     }
 
     /// What the scene gives it, whatever it is now: a program whose params are
     /// edited keeps its plan.
-    fn param(&self, id: ParamId) -> Value {
+    fn param(&self, id: ParamId) -> Word {
         let param = self.exact.0.params.get(id.0 as usize);
-        param.map_or_else(|| self.exact.param(id), Param::usual)
+        param.map_or_else(|| self.exact.param(id), |param| param.usual().into())
     }
 
-    fn apply(&self, id: NodeId, op: Op, args: &[Value]) -> Value {
+    fn apply(&self, id: NodeId, op: Op, args: &[Word]) -> Word {
         let value = self.exact.apply(id, op, args);
-        if let (Some(largest), Value::Real(real)) = (&self.largest, value)
+        if let Some(largest) = &self.largest
+            && let Value::Real(real) = Value::from(value)
             && let Some(most) = largest.borrow_mut().get_mut(id.0 as usize)
         {
             *most = most.max(real.abs());
@@ -91,15 +92,15 @@ impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
         value
     }
 
-    fn gather(&self, received: Value, sent: Value) -> Value {
+    fn gather(&self, received: Word, sent: Word) -> Word {
         self.exact.gather(received, sent)
     }
 
-    fn truth(&self, value: Value) -> bool {
+    fn truth(&self, value: Word) -> bool {
         self.exact.truth(value)
     }
 
-    fn int(&self, value: Value) -> i32 {
+    fn int(&self, value: Word) -> i32 {
         self.exact.int(value)
     }
 

@@ -4,7 +4,7 @@
 use crate::ir::graph::*;
 use crate::ir::ramp;
 use crate::ir::tree::*;
-use slowlight_routine::{Op, Value};
+use slowlight_routine::{Op, Type, Value};
 
 /// How values are held and computed.
 pub trait Arithmetic {
@@ -46,33 +46,113 @@ pub trait Arithmetic {
     fn step(&self, _statement: &Statement) {}
 }
 
+/// A [`Value`] as interpreters hold it: in two words, each of which is written and read as a
+/// whole. A value by itself is written by its parts and copied as a whole, and processors wait
+/// for that (Fog, The microarchitecture of Intel, AMD and VIA CPUs, \"store forwarding\").
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Word {
+    ty: Type,
+    bits: u64,
+}
+
+impl From<Value> for Word {
+    #[inline]
+    fn from(value: Value) -> Word {
+        let bits = match value {
+            Value::Bool(b) => u64::from(b),
+            Value::Int(i) => u64::from(i.cast_unsigned()),
+            Value::Real(r) => r.to_bits(),
+        };
+        Word {
+            ty: value.ty(),
+            bits,
+        }
+    }
+}
+
+impl From<Word> for Value {
+    #[inline]
+    fn from(word: Word) -> Value {
+        match word.ty {
+            Type::Bool => Value::Bool(word.bits != 0),
+            Type::Int => Value::Int((word.bits as u32).cast_signed()),
+            Type::Real => Value::Real(f64::from_bits(word.bits)),
+        }
+    }
+}
+
+impl Word {
+    /// Of a type and its bits.
+    #[inline]
+    pub(crate) fn of(ty: Type, bits: u64) -> Word {
+        Word { ty, bits }
+    }
+
+    /// Its type and its bits.
+    #[inline]
+    pub(crate) fn parts(self) -> (Type, u64) {
+        (self.ty, self.bits)
+    }
+
+    /// As [`Value::ty`].
+    #[inline]
+    pub fn ty(self) -> Type {
+        self.ty
+    }
+
+    /// As [`Value::real`].
+    #[inline]
+    pub fn real(self) -> f64 {
+        Value::from(self).real()
+    }
+
+    /// As [`Value::int`].
+    #[inline]
+    pub fn int(self) -> i32 {
+        Value::from(self).int()
+    }
+
+    /// As [`Value::truth`].
+    #[inline]
+    pub fn truth(self) -> bool {
+        Value::from(self).truth()
+    }
+}
+
+/// An operation as [`Op::eval`] defines it.
+#[inline]
+pub fn computed(op: Op, args: &[Word]) -> Word {
+    let at = |k: usize| args.get(k).map_or(Value::Int(0), |word| Value::from(*word));
+    Word::from(op.eval(&[at(0), at(1)]))
+}
+
 /// The graph's own arithmetic: `f64` and `i32`, as [`Op::eval`] defines them.
 pub struct Exact<'g>(pub &'g Graph);
 
 impl Arithmetic for Exact<'_> {
-    type Value = Value;
+    type Value = Word;
 
-    fn constant(&self, value: Value) -> Value {
-        value
+    fn constant(&self, value: Value) -> Word {
+        value.into()
     }
 
-    fn param(&self, id: ParamId) -> Value {
-        super::native::param_value(self.0, id)
+    fn param(&self, id: ParamId) -> Word {
+        super::native::param_value(self.0, id).into()
     }
 
-    fn apply(&self, _: NodeId, op: Op, args: &[Value]) -> Value {
-        op.eval(args)
+    fn apply(&self, _: NodeId, op: Op, args: &[Word]) -> Word {
+        computed(op, args)
     }
 
-    fn gather(&self, received: Value, sent: Value) -> Value {
-        Op::Add.eval(&[received, sent])
+    fn gather(&self, received: Word, sent: Word) -> Word {
+        computed(Op::Add, &[received, sent])
     }
 
-    fn truth(&self, value: Value) -> bool {
-        value.truth()
+    fn truth(&self, word: Word) -> bool {
+        word.truth()
     }
 
-    fn int(&self, value: Value) -> i32 {
-        value.int()
+    fn int(&self, word: Word) -> i32 {
+        word.int()
     }
 }

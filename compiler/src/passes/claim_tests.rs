@@ -41,7 +41,7 @@ pub fn hold_claims(graph: &Graph, seed: u64) -> usize {
                 Node::Axis(Axis::Y) => Some(Value::Int(y)),
                 // It is kept as it is in the first column.
                 Node::Ramp { .. } => None,
-                _ => run.last(id).filter(|_| free(id)),
+                _ => run.last(id).filter(|_| free(id)).map(Value::from),
             };
             if let (Some(is), Some(a), Some(b)) = (known(*id), known(a), known(b)) {
                 assert_eq!(is, op.eval(&[a, b]), "seed {seed}: {id} at {x}, {y}");

@@ -7,7 +7,7 @@
 //! anything: call by need leaves it out at the others.
 
 use super::profile::Measured;
-use crate::eval::arithmetic::Exact;
+use crate::eval::arithmetic::{Exact, Word};
 use crate::eval::heard::{Heard, Listener};
 use crate::eval::run::Run;
 use crate::ir::graph::*;
@@ -18,7 +18,7 @@ use crate::scene::Scene;
 use crate::schedule::statements::schedule;
 use crate::sema::FunctionKind;
 use crate::source::Span;
-use slowlight_routine::{Bits, Op, Value};
+use slowlight_routine::{Bits, Op};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
@@ -217,8 +217,8 @@ impl Rounds<'_> {
     }
 }
 
-impl Listener<Value> for Rounds<'_> {
-    fn turn(&self, of: LoopId, turn: u32, _: &[Option<Value>]) {
+impl Listener<Word> for Rounds<'_> {
+    fn turn(&self, of: LoopId, turn: u32, _: &[Option<Word>]) {
         self.note(of, |turns| {
             turns.turns += 1;
             turns.most = turns.most.max(turn + 1);

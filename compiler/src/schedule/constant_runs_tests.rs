@@ -139,7 +139,7 @@ fn runs_and_passes_draw_the_same_and_still_inks_are_known() {
                                 parts.map(|part| before.last(part).unwrap().int()).collect();
                             Value::Int(ramp::at(x, &parts))
                         }
-                        _ => before.last(id).unwrap(),
+                        _ => before.last(id).unwrap().into(),
                     };
                     let shown = match found.inks {
                         Inks::One(ink) => ink,

@@ -12,7 +12,7 @@ use crate::scene::check;
 use crate::sema::{Freeze, Options};
 use crate::targets::mos6502;
 use crate::targets::{Target, default_mode};
-use slowlight_routine::{Type, Value};
+use slowlight_routine::Type;
 
 const WIDE: (u32, u32) = (160, 120);
 
@@ -55,10 +55,7 @@ fn off(plan: &PlannedScene) -> usize {
     let most = plan.graph.image.palette.len() as i32 - 1;
     let all = (0..WIDE.1 as i32).flat_map(|y| (0..WIDE.0 as i32).map(move |x| (x, y)));
     all.filter(|&(x, y)| {
-        let ink = match exact.pixel(x, y) {
-            Value::Int(ink) => ink.clamp(0, most),
-            _ => -1,
-        };
+        let ink = exact.pixel(x, y).int().clamp(0, most);
         i32::from(model.pixel(x, y).ink) != ink
     })
     .count()

@@ -18,7 +18,7 @@ use crate::wordlength::rates::{Often, often};
 use crate::wordlength::scales;
 use rayon::prelude::*;
 use slowlight_routine::scale::{finest, fitting};
-use slowlight_routine::{Op, Type, Value};
+use slowlight_routine::{Op, Type};
 
 /// Rows and columns that are looked at, the picture's borders among them.
 const LOOKED_AT: [u32; 2] = [24, 31];
@@ -173,10 +173,8 @@ impl Look<'_> {
             watch.tell(told);
             sample.pixels += times;
             followed += watch.kept() as u64;
-            watch.ask(ink, &mut |id, value, asked| {
-                if let Some(seen) = sample.seen.get_mut(id.0 as usize)
-                    && let Value::Real(x) = value
-                {
+            watch.ask(ink, &mut |id, x, asked| {
+                if let Some(seen) = sample.seen.get_mut(id.0 as usize) {
                     seen.see(x, asked, times);
                 }
             });

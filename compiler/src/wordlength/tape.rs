@@ -1,20 +1,61 @@
 //! Tape for reverse accumulation: what was computed at pixels, kept so that what is asked of the
 //! result can be followed back to every value that it was made of.
 
+use crate::eval::arithmetic::{Word, computed};
 use crate::ir::graph::*;
 use crate::wordlength::adjoint::{Asked, of_both, of_operand};
-use slowlight_routine::{Op, Value};
+use slowlight_routine::{Op, Type};
+use std::num::NonZeroU64;
 
-/// A value, and where on the tape it stands.
+/// A value, and where on the tape it stands: two words, as a [`Word`] is.
 #[derive(Clone, Copy)]
 pub struct Traced {
-    pub value: Value,
-    /// [`NOWHERE`] for what nothing was computed for.
-    pub at: u32,
+    bits: u64,
+    /// Where it stands, then its type.
+    at: NonZeroU64,
 }
 
 /// Where constants, columns and rows stand.
-pub const NOWHERE: u32 = u32::MAX;
+const NOWHERE: u32 = u32::MAX;
+
+impl Traced {
+    #[inline]
+    fn new(word: Word, at: u32) -> Traced {
+        let (ty, bits) = word.parts();
+        let ty = match ty {
+            Type::Bool => 1,
+            Type::Int => 3,
+            Type::Real => 5,
+        };
+        // The last bit is always set.
+        Traced {
+            bits,
+            at: NonZeroU64::MIN | u64::from(at) << 3 | ty,
+        }
+    }
+
+    /// A value that nothing was computed for.
+    #[inline]
+    pub fn nowhere(word: Word) -> Traced {
+        Traced::new(word, NOWHERE)
+    }
+
+    /// The value.
+    #[inline]
+    pub fn word(self) -> Word {
+        let ty = match self.at.get() & 7 {
+            1 => Type::Bool,
+            3 => Type::Int,
+            _ => Type::Real,
+        };
+        Word::of(ty, self.bits)
+    }
+
+    #[inline]
+    fn at(self) -> u32 {
+        (self.at.get() >> 3) as u32
+    }
+}
 
 /// How much one pixel's values may take of the tape: what is computed after that is not
 /// followed back.
@@ -25,10 +66,11 @@ struct Entry {
     of: NodeId,
     /// None for copies.
     op: Option<Op>,
+    is_real: bool,
     /// Where its operands stand, and what they were.
     from: [u32; 2],
     args: [f64; 2],
-    value: Value,
+    value: f64,
 }
 
 /// All that was computed since the tape began.
@@ -48,7 +90,8 @@ impl Tape {
             op: None,
             from: [NOWHERE; 2],
             args: [0.0; 2],
-            value: Value::Int(0),
+            is_real: false,
+            value: 0.0,
         };
         Tape {
             asked: vec![Asked::default(); graph.nodes.len()],
@@ -71,75 +114,76 @@ impl Tape {
     }
 
     /// A value as a node's that needs no computing; as it is where it was computed.
+    #[inline]
     fn leaf(&mut self, of: NodeId, traced: Traced) -> Traced {
         match self.entries.get_mut(of.0 as usize) {
-            Some(leaf) if traced.at == NOWHERE => {
-                leaf.value = traced.value;
-                Traced { at: of.0, ..traced }
+            Some(leaf) if traced.at() == NOWHERE => {
+                let word = traced.word();
+                (leaf.value, leaf.is_real) = (word.real(), word.ty() == Type::Real);
+                Traced::new(word, of.0)
             }
             _ => traced,
         }
     }
 
-    /// An operation's result.
-    pub fn computed(&mut self, graph: &Graph, id: NodeId, op: Op, args: &[Traced]) -> Traced {
-        let of = match graph.node(id) {
-            Node::Apply(_, of) => of,
-            _ => [id; 2],
+    /// An operation's result; what it is of are its operands' nodes, and what they are.
+    #[inline]
+    pub fn computed(&mut self, id: NodeId, op: Op, of: [NodeId; 2], args: [Traced; 2]) -> Traced {
+        let from = [self.leaf(of[0], args[0]), self.leaf(of[1], args[1])];
+        let words = from.map(Traced::word);
+        let result = computed(op, &words[..op.arity()]);
+        let args = match op.arity() {
+            1 => [words[0].real(), 0.0],
+            _ => words.map(Word::real),
         };
-        let leaf = |tape: &mut Tape, k: usize| {
-            let arg = args.get(k).or(args.first()).copied();
-            let arg = arg.unwrap_or(Traced {
-                value: Value::Int(0),
-                at: NOWHERE,
-            });
-            tape.leaf(of[k], arg)
-        };
-        let from = [leaf(self, 0), leaf(self, 1)];
-        let values = from.map(|arg| arg.value);
-        let value = op.eval(&values[..op.arity()]);
-        self.push(id, Some(op), from, value)
+        self.push(id, Some(op), (from.map(Traced::at), args), result)
     }
 
     /// What a place holds that is given a value; `of` is a node that reads it.
     pub fn copied(&mut self, of: NodeId, from: NodeId, traced: Traced) -> Traced {
         let traced = self.leaf(from, traced);
-        self.push(of, None, [traced; 2], traced.value)
+        let word = traced.word();
+        self.push(of, None, ([traced.at(); 2], [word.real(); 2]), word)
     }
 
-    fn push(&mut self, of: NodeId, op: Option<Op>, from: [Traced; 2], value: Value) -> Traced {
+    #[inline]
+    fn push(
+        &mut self,
+        of: NodeId,
+        op: Option<Op>,
+        (from, args): ([u32; 2], [f64; 2]),
+        word: Word,
+    ) -> Traced {
         if self.entries.len() >= MOST {
-            return Traced { value, at: NOWHERE };
+            return Traced::nowhere(word);
         }
         let at = self.entries.len() as u32;
         self.asked.push(Asked::default());
         self.entries.push(Entry {
             of,
             op,
-            from: from.map(|arg| arg.at),
-            args: match op {
-                Some(op) if op.arity() == 1 => [from[0].value.real(), 0.0],
-                _ => from.map(|arg| arg.value.real()),
-            },
-            value,
+            is_real: word.ty() == Type::Real,
+            from,
+            args,
+            value: word.real(),
         });
-        Traced { value, at }
+        Traced::new(word, at)
     }
 
     /// The node whose value stands somewhere.
     pub fn node(&self, traced: Traced) -> Option<NodeId> {
-        self.entries.get(traced.at as usize).map(|entry| entry.of)
+        self.entries.get(traced.at() as usize).map(|entry| entry.of)
     }
 
     /// Follows what is asked of some values back to all that they were made of, and tells
-    /// of each with its node.
+    /// of each that is a real with its node.
     pub fn follow(
         &mut self,
         roots: impl Iterator<Item = Traced>,
-        tell: &mut impl FnMut(NodeId, Value, Asked),
+        tell: &mut impl FnMut(NodeId, f64, Asked),
     ) {
         for root in roots {
-            self.ask(root.at, Asked::whole(root.value.real()));
+            self.ask(root.at(), Asked::whole(root.word().real()));
         }
         // What was computed last first, so that all is known that is asked of a value: whoever
         // asks stands behind it.
@@ -149,11 +193,13 @@ impl Tape {
             }
             let asked = std::mem::take(&mut self.asked[at]);
             let entry = &self.entries[at];
-            tell(entry.of, entry.value, asked);
+            if entry.is_real {
+                tell(entry.of, entry.value, asked);
+            }
             if at < self.leaves as usize {
                 continue;
             }
-            let (from, args, value) = (entry.from, entry.args, entry.value.real());
+            let (from, args, value) = (entry.from, entry.args, entry.value);
             let Some(op) = entry.op else {
                 self.ask(from[0], asked);
                 continue;

@@ -1,9 +1,9 @@
 //! Tracing evaluation for reverse-mode differentiation: computes in `f64`, and keeps on a tape
 //! what was computed and which values decided a way or an entry.
 
-use super::tape::{NOWHERE, Tape, Traced};
+use super::tape::{Tape, Traced};
 use crate::analysis::carried::{Readers, held_by};
-use crate::eval::arithmetic::{Arithmetic, Exact};
+use crate::eval::arithmetic::{Arithmetic, Exact, Word};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::wordlength::adjoint::Asked;
@@ -79,7 +79,7 @@ impl<'g> Watch<'g> {
     pub fn send(&self, sent: impl Iterator<Item = Traced>) {
         let sum = |sum: f64, traced: Traced| {
             self.decides(traced);
-            sum + traced.value.real()
+            sum + traced.word().real()
         };
         self.received.set(sent.fold(0.0, sum));
     }
@@ -87,13 +87,13 @@ impl<'g> Watch<'g> {
     /// A node's value where it is read.
     fn read(&self, id: NodeId, traced: Traced) -> Traced {
         match self.exact.0.node(id) {
-            Node::Received => untraced(Value::Real(self.received.get())),
+            Node::Received => Traced::nowhere(Value::Real(self.received.get()).into()),
             _ => traced,
         }
     }
 
     /// Tells of every value what is asked of it by a pixel that has just been run.
-    pub fn ask(&self, ink: Traced, tell: &mut impl FnMut(NodeId, Value, Asked)) {
+    pub fn ask(&self, ink: Traced, tell: &mut impl FnMut(NodeId, f64, Asked)) {
         let mut roots = self.roots.borrow_mut();
         let Roots { frame, row, pixel } = &*roots;
         let all = [frame, row, pixel].into_iter().flatten().copied();
@@ -131,7 +131,7 @@ impl<'g> Watch<'g> {
         }
     }
 
-    fn chosen(&self, id: ParamId) -> Value {
+    fn chosen(&self, id: ParamId) -> Word {
         let own = self.exact.param(id);
         let found = self.exact.0.params.get(id.0 as usize);
         // A bool may be either, whatever is said of it.
@@ -144,39 +144,37 @@ impl<'g> Watch<'g> {
         };
         let part = self.part(id.0);
         let value = range.lo + part * (range.hi - range.lo);
-        match param.ty {
+        Word::from(match param.ty {
             // As the scene has it: a program whose params are edited keeps its points.
             _ if self.choice == 0 => param.usual(),
             Type::Bool => Value::Bool(part > 0.5),
             Type::Int => Value::Int(value.round() as i32),
             Type::Real => Value::Real(value),
-        }
+        })
     }
-}
-
-fn untraced(value: Value) -> Traced {
-    Traced { value, at: NOWHERE }
 }
 
 impl Arithmetic for &Watch<'_> {
     type Value = Traced;
 
     fn constant(&self, value: Value) -> Traced {
-        untraced(self.exact.constant(value))
+        Traced::nowhere(self.exact.constant(value))
     }
 
     fn param(&self, id: ParamId) -> Traced {
-        untraced(self.chosen(id))
+        Traced::nowhere(self.chosen(id))
     }
 
     fn apply(&self, id: NodeId, op: Op, args: &[Traced]) -> Traced {
-        let mut all = [untraced(Value::Int(0)); 2];
-        let of = self.exact.0.node(id).operands();
-        for ((held, arg), of) in all.iter_mut().zip(args).zip(of) {
-            *held = self.read(of, *arg);
-        }
-        let mut tape = self.tape.borrow_mut();
-        tape.computed(self.exact.0, id, op, &all[..args.len().min(2)])
+        let of = match self.exact.0.node(id) {
+            Node::Apply(_, of) => of,
+            _ => [id; 2],
+        };
+        let none = || Traced::nowhere(Value::Int(0).into());
+        let arg = |k: usize| args.get(k).map_or_else(none, |arg| self.read(of[k], *arg));
+        let first = arg(0);
+        let second = if args.len() > 1 { arg(1) } else { first };
+        self.tape.borrow_mut().computed(id, op, of, [first, second])
     }
 
     fn copied(&self, place: Place, from: NodeId, traced: Traced) -> Traced {
@@ -188,17 +186,17 @@ impl Arithmetic for &Watch<'_> {
     }
 
     fn gather(&self, received: Traced, sent: Traced) -> Traced {
-        untraced(self.exact.gather(received.value, sent.value))
+        Traced::nowhere(self.exact.gather(received.word(), sent.word()))
     }
 
     fn truth(&self, traced: Traced) -> bool {
         self.decides(traced);
-        self.exact.truth(traced.value)
+        self.exact.truth(traced.word())
     }
 
     fn int(&self, traced: Traced) -> i32 {
         self.decides(traced);
-        self.exact.int(traced.value)
+        self.exact.int(traced.word())
     }
 
     fn step(&self, statement: &Statement) {

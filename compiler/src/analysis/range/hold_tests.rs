@@ -3,7 +3,7 @@
 
 use super::{Ranges, Slack, ranges};
 use crate::backend::emit;
-use crate::eval::arithmetic::Exact;
+use crate::eval::arithmetic::{Exact, Word};
 use crate::eval::heard::{Heard, Listener};
 use crate::eval::run::Run;
 use crate::ir::graph::*;
@@ -15,7 +15,7 @@ use crate::scene::check;
 use crate::schedule::statements::schedule;
 use crate::sema::Options;
 use crate::targets::{default_mode, find};
-use slowlight_routine::{Op, Range, Value};
+use slowlight_routine::{Op, Range};
 use std::cell::RefCell;
 
 /// Compares each operation that runs with what is said of it.
@@ -27,14 +27,14 @@ struct Compared<'r> {
 }
 
 /// Whether a value lies in a range, but for roundings.
-fn holds(range: Range, value: Value) -> bool {
+fn holds(range: Range, value: Word) -> bool {
     let x = value.real();
     let off = 1e-7 * (1.0 + x.abs());
     range.lo - off <= x && x <= range.hi + off
 }
 
-impl Listener<Value> for Compared<'_> {
-    fn applied(&self, id: NodeId, op: Op, args: &[Value], result: Value) {
+impl Listener<Word> for Compared<'_> {
+    fn applied(&self, id: NodeId, op: Op, args: &[Word], result: Word) {
         let at = id.0 as usize;
         if self.left[at] {
             return;
