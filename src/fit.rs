@@ -167,12 +167,13 @@ impl Search<'_> {
     /// A mode's plan, or another of the scene, that fits without subroutines for what is done
     /// at each pixel.
     fn fitted(&self, mut plan: PlannedScene) -> Outcome<Fitted> {
+        plan = plan.on_trial();
         // Calls are slower by a few parts in a hundred, a step that spends less memory by more.
         if plan.target.lean == Lean::Calls && !self.holds(&plan)? {
             plan.lean = true;
         }
         let quick = match self.with_calls_where_seldom(&plan)? {
-            Ok(fits) => return self.with_copies(fits).map(Fitted::from),
+            Ok(fits) => return self.with_copies(self.settled(fits)?).map(Fitted::from),
             Err(need) => need,
         };
         // What is written as the scene has it and short is about as small as it gets.
@@ -190,7 +191,7 @@ impl Search<'_> {
         }
         let (least, quickest) = self.quickest(&plan)?;
         if let Some(fits) = quickest {
-            let fits = self.or_outlined(&plan, fits)?;
+            let fits = self.settled(self.or_outlined(&plan, fits)?)?;
             return self.with_copies(fits).map(Fitted::from);
         }
         let small = least.unwrap_or_else(|| plan.clone());
@@ -202,9 +203,24 @@ impl Search<'_> {
             (found, _) => found,
         };
         match found {
-            Fitted::Fits(fits) => self.or_outlined(&plan, *fits).map(Fitted::from),
+            Fitted::Fits(fits) => {
+                let fits = self.or_outlined(&plan, *fits)?;
+                self.settled(fits).map(Fitted::from)
+            }
             large => Ok(large),
         }
+    }
+
+    /// A plan that fits, with its points as they are to be run by, if it fits so, too.
+    fn settled(&self, plan: PlannedScene) -> Outcome<PlannedScene> {
+        let Some(settled) = plan.settled() else {
+            return Ok(plan);
+        };
+        let need = about(&settled, self.fuel, &self.kept)?;
+        Ok(match need.is_none_or(|need| need.fits()) {
+            true => settled,
+            false => plan,
+        })
     }
 
     /// What a plan's program takes.
@@ -267,18 +283,18 @@ impl Search<'_> {
                 }
             };
             if let Some(quick) = of.quick.take()
-                && let Some(fits) = self.outlined_to_fit(&quick)?
+                && let Some(fits) = self.outlined_to_fit(&quick.on_trial())?
             {
-                return Ok(Some(fits));
+                return self.settled(fits).map(Some);
             }
             // A fault of the plan with subroutines would be one of the plan without.
-            let outlined = plan.outlined(self.name);
+            let outlined = plan.on_trial().outlined(self.name);
             of.plan = Some(plan);
             let Ok(outlined) = outlined else {
                 continue;
             };
             match self.as_is_or_tight(outlined)? {
-                Fitted::Fits(plan) => return Ok(Some(*plan)),
+                Fitted::Fits(plan) => return self.settled(*plan).map(Some),
                 Fitted::TooLarge(_, need) => of.outlined = Some(need),
             }
         }

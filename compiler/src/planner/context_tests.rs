@@ -48,7 +48,7 @@ fn plans_made_again_are_those_made_anew() {
     );
     assert_eq!(
         text(&again),
-        text(&anew.unwrap().assembled(target, &goal).unwrap())
+        text(&anew.unwrap().assembled_to_run(target, &goal).unwrap())
     );
     assert_ne!(text(&again), text(&plenty), "another plan");
 }

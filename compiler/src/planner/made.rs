@@ -85,7 +85,7 @@ pub fn plan_among(
         false => without,
     };
     cx.pipeline = Pipeline::without(without);
-    candidate(&Arc::new(cx), target, goal, (all, Fuel::new(fuel)))?.assembled(target, goal)
+    candidate(&Arc::new(cx), target, goal, (all, Fuel::new(fuel)))?.assembled_to_run(target, goal)
 }
 
 /// The same with every shade in full, even where the ink is known before: what that is less
@@ -102,7 +102,7 @@ pub fn plan_with_every_shade(
         budget: SizeBudget::default(),
         steps: Steps::All,
     };
-    candidate(&Arc::new(cx), target, goal, (all, Fuel::new(SEARCH)))?.assembled(target, goal)
+    candidate(&Arc::new(cx), target, goal, (all, Fuel::new(SEARCH)))?.assembled_to_run(target, goal)
 }
 
 /// The same without the passes that rewrite formulas ([`crate::passes::accuracy`]
@@ -114,7 +114,7 @@ pub fn plan_as_written(
 ) -> Result<PlannedScene, Vec<Diagnostic>> {
     let none = (Rewriting::None, Fuel::new(SEARCH));
     let cx = Context::new(graph.clone(), target.runtime);
-    candidate(&Arc::new(cx), target, goal, none)?.assembled(target, goal)
+    candidate(&Arc::new(cx), target, goal, none)?.assembled_to_run(target, goal)
 }
 
 /// By how much shortcuts must make a plan cheaper: each is a test more to be read.
@@ -157,11 +157,12 @@ impl Candidate {
         self.plan.serial() == other.plan.serial() || self.plan.graph == other.plan.graph
     }
 
-    /// The plan with its routines.
+    /// The plan with its routines; to place points so many statements are run.
     pub(super) fn assembled(
         self,
         target: &'static Target,
         goal: &Goal,
+        looks: u64,
     ) -> Result<PlannedScene, Vec<Diagnostic>> {
         let Known {
             graph,
@@ -174,7 +175,7 @@ impl Candidate {
             tree: tree.clone(),
             ranges: ranges.clone(),
         };
-        let mut plan = assemble(scheduled, self.params, target, goal, self.cx.looks())?;
+        let mut plan = assemble(scheduled, self.params, target, goal, looks)?;
         plan.cut = self.cut;
         if plan.runtime.narrow.is_some() {
             let narrow = (self.cx).always(Pass::WordLengths, || {
@@ -186,11 +187,23 @@ impl Candidate {
         }
         Ok(PlannedScene {
             plan,
-            cx: self.cx,
             rewriting: self.rewriting,
             work: self.work,
             allowance: self.allowance,
+            looks: self.cx.looks(),
+            looked: looks,
+            cx: self.cx,
         })
+    }
+
+    /// The same with its points placed as usual.
+    pub(super) fn assembled_to_run(
+        self,
+        target: &'static Target,
+        goal: &Goal,
+    ) -> Result<PlannedScene, Vec<Diagnostic>> {
+        let looks = self.cx.looks();
+        self.assembled(target, goal, looks)
     }
 }
 

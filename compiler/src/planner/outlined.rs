@@ -109,7 +109,7 @@ impl PlannedScene {
             tree,
             ranges: found,
         };
-        let (params, looks) = (self.params.clone(), self.cx.looks());
+        let (params, looks) = (self.params.clone(), self.looks);
         let mut plan = assemble(scheduled, params, self.target, &goal, looks)?;
         plan.cut = self.cut;
         plan.items = self.items.clone();
@@ -118,6 +118,7 @@ impl PlannedScene {
         plan.statics = self.statics;
         Ok(PlannedScene {
             plan,
+            looked: looks,
             ..self.clone()
         })
     }

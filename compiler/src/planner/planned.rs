@@ -4,6 +4,7 @@ use super::context::Context;
 use super::search::stepped::Steps;
 use crate::cost::size_budget::SizeBudget;
 use crate::plan::Plan;
+use crate::wordlength::{pointed, sample};
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -31,6 +32,10 @@ pub struct PlannedScene {
     pub(super) work: u64,
     /// How much fuel there is for each plan that is made from this one.
     pub(super) allowance: u64,
+    /// How many statements are run to place the points of those plans, and how many were for its
+    /// own.
+    pub(super) looks: u64,
+    pub(super) looked: u64,
 }
 
 impl Deref for PlannedScene {
@@ -48,6 +53,39 @@ impl DerefMut for PlannedScene {
 }
 
 impl PlannedScene {
+    /// The same; points of plans that are made from it are placed by few pixels, as is enough to
+    /// see how large their programs are ([`PlannedScene::settled`]). Where values have two widths,
+    /// which of them are narrow counts for more.
+    #[must_use]
+    pub fn on_trial(&self) -> PlannedScene {
+        let looks = match self.runtime.narrow {
+            Some(_) => self.looks,
+            None => self.looks.min(sample::DRAFT),
+        };
+        PlannedScene {
+            looks,
+            ..self.clone()
+        }
+    }
+
+    /// The same with its points placed as those of a plan that is to be run; none where they are,
+    /// or where there are none.
+    pub fn settled(&self) -> Option<PlannedScene> {
+        let looks = self.cx.looks();
+        if self.points.is_none() || self.looked >= looks {
+            return None;
+        }
+        let (points, ranges) = pointed(&self.graph, &self.tree, self.runtime, looks)?;
+        let mut plan = self.plan.clone();
+        let found = plan.take_points(points, ranges);
+        found.then(|| PlannedScene {
+            plan,
+            looks,
+            looked: looks,
+            ..self.clone()
+        })
+    }
+
     /// How many statements ran in the routines' models to find the widths of values, for this
     /// plan and those that were made with it.
     pub fn modelled(&self) -> u64 {

@@ -128,7 +128,10 @@ impl PlannedScene {
 
     /// The plan of a candidate, for the same screen and written in the same way.
     pub fn completed(&self, candidate: Candidate) -> Option<PlannedScene> {
-        let mut plan = candidate.assembled(self.target, &self.goal()).ok()?;
+        let mut plan = candidate
+            .assembled(self.target, &self.goal(), self.looks)
+            .ok()?;
+        plan.looks = self.looks;
         plan.params = self.params.clone();
         plan.hold();
         plan.items = self.items.clone();

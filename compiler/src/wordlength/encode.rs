@@ -2,9 +2,12 @@
 
 use super::divided;
 use crate::analysis::points::Points;
+use crate::analysis::range::Ranges;
+use crate::homes::single_use;
 use crate::ir::graph::*;
-use crate::plan::table_init::Made;
+use crate::plan::table_init::{self, Made};
 use crate::plan::{ParamPlan, Plan};
+use crate::selection::routines;
 use slowlight_routine::{Bits, Runtime, Type, Value};
 
 /// Puts tables' entries and params where their points are.
@@ -51,6 +54,21 @@ fn taken(runtime: &Runtime, points: &Points, param: &ParamPlan, id: NodeId) -> B
 }
 
 impl Plan {
+    /// Takes other points and routines for them; where there are none, all stays as it was, and
+    /// the answer is no.
+    pub(crate) fn take_points(&mut self, points: Points, ranges: Ranges) -> bool {
+        let (graph, tree, runtime) = (&self.graph, &self.tree, self.runtime);
+        let Ok(routines) = routines::choose(graph, tree, &ranges, runtime, Some(&points)) else {
+            return false;
+        };
+        self.tables = table_init::made(graph, runtime);
+        self.folded = single_use::folded(graph, tree, self.still.as_ref(), &routines);
+        (self.points, self.ranges) = (Some(points), ranges);
+        self.routines = routines;
+        self.hold();
+        true
+    }
+
     /// Puts tables' entries and params where points are, if the plan has such.
     pub(crate) fn hold(&mut self) {
         if let Some(points) = &self.points {

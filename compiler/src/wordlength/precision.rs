@@ -22,13 +22,11 @@
 use crate::analysis::points::widths::Widths;
 use crate::cost::meter::Meter;
 use crate::eval::run::Run;
-use crate::homes::single_use;
 use crate::ir::graph::*;
 use crate::ir::tree::Statement;
+use crate::plan::Plan;
 use crate::plan::model::ModelRun;
 use crate::plan::params::params;
-use crate::plan::{Plan, table_init};
-use crate::selection::routines;
 use crate::wordlength::{placed, sample};
 use slowlight_routine::{Format, Narrow, Type};
 use std::cell::{Cell, RefCell};
@@ -256,15 +254,7 @@ impl Search {
         let (graph, tree, runtime) = (&plan.graph, &plan.tree, plan.runtime);
         let widths = Widths::mixed(graph, (self.bits, self.narrow.bits), narrow);
         let (points, ranges) = placed((graph, tree), runtime, &self.sample, &widths);
-        let Ok(routines) = routines::choose(graph, tree, &ranges, runtime, Some(&points)) else {
-            return false;
-        };
-        let tables = table_init::made(graph, runtime);
-        plan.folded = single_use::folded(graph, tree, plan.still.as_ref(), &routines);
-        (plan.points, plan.ranges) = (Some(points), ranges);
-        (plan.routines, plan.tables) = (routines, tables);
-        plan.hold();
-        true
+        plan.take_points(points, ranges)
     }
 
     /// Those of some pixels whose inks are wrong.
