@@ -91,6 +91,8 @@ mod peers_live;
 #[cfg(feature = "peers")]
 mod peers_neovim;
 #[cfg(feature = "peers")]
+mod peers_parallel;
+#[cfg(feature = "peers")]
 mod peers_sixel;
 #[cfg(feature = "peers")]
 mod peers_stella;
