@@ -55,8 +55,8 @@ impl ScreenArgs {
         scene: &Scene,
         plan: impl Fn(&ScreenArgs, &dyn Fn(Instancing)) -> Outcome<PlannedScene>,
     ) -> Outcome<PlannedScene> {
-        // What takes less memory for them than any of the first plans, as those were of the ways
-        // that take less already where the others were too large.
+        // The way with most memory for them among the first plans, one for each mode: each took
+        // what takes less where the rest was too large, so only what is beyond it is another plan.
         let most = Cell::new(Instancing::Separate);
         let first = plan(self, &|taken| {
             most.set(most.get().min(match taken {
