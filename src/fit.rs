@@ -211,16 +211,14 @@ impl Search<'_> {
         }
     }
 
-    /// A plan that fits, with its points as they are to be run by, if it fits so, too.
+    /// A plan that fits, off trial, with its points as they are to be run by, if it fits so, too.
     fn settled(&self, plan: PlannedScene) -> Outcome<PlannedScene> {
-        let Some(settled) = plan.settled() else {
-            return Ok(plan);
-        };
-        let need = about(&settled, self.fuel, &self.kept)?;
-        Ok(match need.is_none_or(|need| need.fits()) {
-            true => settled,
-            false => plan,
-        })
+        if let Some(settled) = plan.settled()
+            && about(&settled, self.fuel, &self.kept)?.is_none_or(|need| need.fits())
+        {
+            return Ok(settled);
+        }
+        Ok(plan.off_trial())
     }
 
     /// What a plan's program takes.

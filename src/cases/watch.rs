@@ -4,7 +4,7 @@
 //! A machine goes on with what is left; whoever judges its result has to know.
 
 use super::format::worth;
-use slowlight_compiler::eval::arithmetic::{Exact, Word};
+use slowlight_compiler::eval::arithmetic::{Exact, Tagged};
 use slowlight_compiler::eval::heard::{Heard, Listener};
 use slowlight_compiler::eval::run::Run;
 use slowlight_compiler::ir::graph::{Graph, NodeId};
@@ -127,9 +127,9 @@ struct Natively {
     left: RefCell<Option<String>>,
 }
 
-impl Listener<Word> for Natively {
-    fn applied(&self, _: NodeId, op: Op, args: &[Word], result: Word) {
-        let args: Vec<Value> = args.iter().map(|word| Value::from(*word)).collect();
+impl Listener<Tagged> for Natively {
+    fn applied(&self, _: NodeId, op: Op, args: &[Tagged], result: Tagged) {
+        let args: Vec<Value> = args.iter().map(|tagged| Value::from(*tagged)).collect();
         let (args, result) = (args.as_slice(), Value::from(result));
         let vanished = matches!(op, Op::Mul | Op::Div)
             && result.real() == 0.0

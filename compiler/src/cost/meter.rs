@@ -1,7 +1,7 @@
 //! Instrumented execution: a picture run in `f64`, with the params as the scene has them, and
 //! what ran.
 
-use crate::eval::arithmetic::{Arithmetic, Exact, Word};
+use crate::eval::arithmetic::{Arithmetic, Exact, Tagged};
 use crate::ir::graph::*;
 use crate::ir::tree::Statement;
 use rustc_hash::FxHashMap;
@@ -68,20 +68,20 @@ impl<'g, C: Fn(&Statement) -> f64> Meter<'g, C> {
 }
 
 impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
-    type Value = Word;
+    type Value = Tagged;
 
-    fn constant(&self, value: Value) -> Word {
+    fn constant(&self, value: Value) -> Tagged {
         self.exact.constant(value)
     }
 
     /// What the scene gives it, whatever it is now: a program whose params are
     /// edited keeps its plan.
-    fn param(&self, id: ParamId) -> Word {
+    fn param(&self, id: ParamId) -> Tagged {
         let param = self.exact.0.params.get(id.0 as usize);
         param.map_or_else(|| self.exact.param(id), |param| param.usual().into())
     }
 
-    fn apply(&self, id: NodeId, op: Op, args: &[Word]) -> Word {
+    fn apply(&self, id: NodeId, op: Op, args: &[Tagged]) -> Tagged {
         let value = self.exact.apply(id, op, args);
         if let Some(largest) = &self.largest
             && let Value::Real(real) = Value::from(value)
@@ -92,15 +92,15 @@ impl<C: Fn(&Statement) -> f64> Arithmetic for &Meter<'_, C> {
         value
     }
 
-    fn gather(&self, received: Word, sent: Word) -> Word {
+    fn gather(&self, received: Tagged, sent: Tagged) -> Tagged {
         self.exact.gather(received, sent)
     }
 
-    fn truth(&self, value: Word) -> bool {
+    fn truth(&self, value: Tagged) -> bool {
         self.exact.truth(value)
     }
 
-    fn int(&self, value: Word) -> i32 {
+    fn int(&self, value: Tagged) -> i32 {
         self.exact.int(value)
     }
 

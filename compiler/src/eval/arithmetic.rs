@@ -46,46 +46,46 @@ pub trait Arithmetic {
     fn step(&self, _statement: &Statement) {}
 }
 
-/// A [`Value`] as interpreters hold it: in two words, each of which is written and read as a
+/// A [`Value`] as interpreters hold it, its tag and its bits: in two words, each of which is written and read as a
 /// whole. A value by itself is written by its parts and copied as a whole, and processors wait
-/// for that (Fog, The microarchitecture of Intel, AMD and VIA CPUs, \"store forwarding\").
+/// for that (Fog, The microarchitecture of Intel, AMD and VIA CPUs, "store forwarding").
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Word {
+pub struct Tagged {
     ty: Type,
     bits: u64,
 }
 
-impl From<Value> for Word {
+impl From<Value> for Tagged {
     #[inline]
-    fn from(value: Value) -> Word {
+    fn from(value: Value) -> Tagged {
         let bits = match value {
             Value::Bool(b) => u64::from(b),
             Value::Int(i) => u64::from(i.cast_unsigned()),
             Value::Real(r) => r.to_bits(),
         };
-        Word {
+        Tagged {
             ty: value.ty(),
             bits,
         }
     }
 }
 
-impl From<Word> for Value {
+impl From<Tagged> for Value {
     #[inline]
-    fn from(word: Word) -> Value {
-        match word.ty {
-            Type::Bool => Value::Bool(word.bits != 0),
-            Type::Int => Value::Int((word.bits as u32).cast_signed()),
-            Type::Real => Value::Real(f64::from_bits(word.bits)),
+    fn from(tagged: Tagged) -> Value {
+        match tagged.ty {
+            Type::Bool => Value::Bool(tagged.bits != 0),
+            Type::Int => Value::Int((tagged.bits as u32).cast_signed()),
+            Type::Real => Value::Real(f64::from_bits(tagged.bits)),
         }
     }
 }
 
-impl Word {
+impl Tagged {
     /// Of a type and its bits.
     #[inline]
-    pub(crate) fn of(ty: Type, bits: u64) -> Word {
-        Word { ty, bits }
+    pub(crate) fn of(ty: Type, bits: u64) -> Tagged {
+        Tagged { ty, bits }
     }
 
     /// Its type and its bits.
@@ -121,38 +121,41 @@ impl Word {
 
 /// An operation as [`Op::eval`] defines it.
 #[inline]
-pub fn computed(op: Op, args: &[Word]) -> Word {
-    let at = |k: usize| args.get(k).map_or(Value::Int(0), |word| Value::from(*word));
-    Word::from(op.eval(&[at(0), at(1)]))
+pub fn computed(op: Op, args: &[Tagged]) -> Tagged {
+    let at = |k: usize| {
+        args.get(k)
+            .map_or(Value::Int(0), |tagged| Value::from(*tagged))
+    };
+    Tagged::from(op.eval(&[at(0), at(1)]))
 }
 
 /// The graph's own arithmetic: `f64` and `i32`, as [`Op::eval`] defines them.
 pub struct Exact<'g>(pub &'g Graph);
 
 impl Arithmetic for Exact<'_> {
-    type Value = Word;
+    type Value = Tagged;
 
-    fn constant(&self, value: Value) -> Word {
+    fn constant(&self, value: Value) -> Tagged {
         value.into()
     }
 
-    fn param(&self, id: ParamId) -> Word {
+    fn param(&self, id: ParamId) -> Tagged {
         super::native::param_value(self.0, id).into()
     }
 
-    fn apply(&self, _: NodeId, op: Op, args: &[Word]) -> Word {
+    fn apply(&self, _: NodeId, op: Op, args: &[Tagged]) -> Tagged {
         computed(op, args)
     }
 
-    fn gather(&self, received: Word, sent: Word) -> Word {
+    fn gather(&self, received: Tagged, sent: Tagged) -> Tagged {
         computed(Op::Add, &[received, sent])
     }
 
-    fn truth(&self, word: Word) -> bool {
-        word.truth()
+    fn truth(&self, tagged: Tagged) -> bool {
+        tagged.truth()
     }
 
-    fn int(&self, word: Word) -> i32 {
-        word.int()
+    fn int(&self, tagged: Tagged) -> i32 {
+        tagged.int()
     }
 }

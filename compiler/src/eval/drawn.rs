@@ -11,6 +11,7 @@ use crate::passes::simplify::fold::fold;
 use crate::scene::check;
 use crate::schedule::statements::missing;
 use crate::sema::Options;
+use slowlight_routine::Value;
 
 /// A scene's graph as it is written.
 pub fn lowered(text: &str) -> Graph {
@@ -42,8 +43,8 @@ pub fn picture(graph: &Graph, tree: &Tree, places: &[(i32, i32)]) -> Vec<String>
 pub fn drawn(graph: &Graph, tree: &Tree, places: &[(i32, i32)]) -> (Vec<String>, u64) {
     let mut run = Run::new(graph, tree, Exact(graph));
     let all = places.iter().map(|&(x, y)| {
-        let ink = run.pixel(x, y);
-        let shade = graph.shade.and_then(|id| run.last(id));
+        let ink = Value::from(run.pixel(x, y));
+        let shade = graph.shade.and_then(|id| run.last(id)).map(Value::from);
         format!("({x}, {y}): {ink:?} {shade:?}")
     });
     let all = all.collect();

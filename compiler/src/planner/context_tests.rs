@@ -3,7 +3,7 @@
 
 use super::SEARCH;
 use super::made::{candidate, plan};
-use super::planned::Rewriting;
+use super::planned::{PlannedScene, Rewriting};
 use crate::cost::size_budget::SizeBudget;
 use crate::fuel::Fuel;
 use crate::plan::{Goal, Plan};
@@ -11,7 +11,7 @@ use crate::planner::context::Context;
 use crate::planner::search::stepped::Steps;
 use crate::scene::check;
 use crate::sema::Options;
-use crate::targets::{default_mode, find};
+use crate::targets::{default_mode, find, formats};
 use std::sync::Arc;
 
 /// A plan with less memory that was made after another is the one made by itself.
@@ -51,4 +51,44 @@ fn plans_made_again_are_those_made_anew() {
         text(&anew.unwrap().assembled_to_run(target, &goal).unwrap())
     );
     assert_ne!(text(&again), text(&plenty), "another plan");
+}
+
+/// A way to another plan of the scene.
+type Way = fn(&PlannedScene) -> PlannedScene;
+
+/// Plans whose points were placed by few pixels, to see how large they are, are settled to those
+/// that would have been made at once.
+#[test]
+fn plans_on_trial_are_settled_to_those_made_at_once() {
+    let scene = check("torus", include_str!("../../../examples/torus.scn"));
+    let mut all = formats(find("6502:plain").unwrap());
+    let target = all.find(|t| t.runtime.format == "fixed16").unwrap();
+    let graph = scene.lower(&Options::default()).unwrap();
+    let goal = Goal {
+        name: "torus".to_owned(),
+        mode: default_mode(target, 320, 240).unwrap(),
+        rows: None,
+        plot: true,
+    };
+    let text = |plan: &Plan| crate::backend::emit(plan)[0].text.clone();
+    let plenty = plan(&graph, target, &goal).unwrap();
+    let usual = plenty.cx.looks();
+    assert!(plenty.on_trial().settled().is_none(), "its own points are");
+    let ways: [Way; 3] = [
+        |plan| plan.stable().unwrap(),
+        |plan| {
+            plan.thriftier(4)
+                .and_then(|made| plan.completed(made))
+                .unwrap()
+        },
+        |plan| plan.outlined(&|_| None).unwrap(),
+    ];
+    for way in ways {
+        let (at_once, tried) = (way(&plenty), way(&plenty.on_trial()));
+        assert!(tried.looked < at_once.looked);
+        let settled = tried.settled().unwrap();
+        assert_eq!(text(&settled), text(&at_once));
+        assert_eq!((settled.looks, settled.looked), (usual, usual));
+        assert_eq!(tried.off_trial().looks, usual);
+    }
 }

@@ -68,8 +68,17 @@ impl PlannedScene {
         }
     }
 
-    /// The same with its points placed as those of a plan that is to be run; none where they are,
-    /// or where there are none.
+    /// The same, with plans made from it as usual.
+    #[must_use]
+    pub fn off_trial(self) -> PlannedScene {
+        PlannedScene {
+            looks: self.cx.looks(),
+            ..self
+        }
+    }
+
+    /// The same off trial, with its points placed as those of a plan that is to be run; none where
+    /// they are, or where there are none.
     pub fn settled(&self) -> Option<PlannedScene> {
         let looks = self.cx.looks();
         if self.points.is_none() || self.looked >= looks {

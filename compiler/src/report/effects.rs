@@ -7,7 +7,7 @@
 //! anything: call by need leaves it out at the others.
 
 use super::profile::Measured;
-use crate::eval::arithmetic::{Exact, Word};
+use crate::eval::arithmetic::{Exact, Tagged};
 use crate::eval::heard::{Heard, Listener};
 use crate::eval::run::Run;
 use crate::ir::graph::*;
@@ -217,8 +217,8 @@ impl Rounds<'_> {
     }
 }
 
-impl Listener<Word> for Rounds<'_> {
-    fn turn(&self, of: LoopId, turn: u32, _: &[Option<Word>]) {
+impl Listener<Tagged> for Rounds<'_> {
+    fn turn(&self, of: LoopId, turn: u32, _: &[Option<Tagged>]) {
         self.note(of, |turns| {
             turns.turns += 1;
             turns.most = turns.most.max(turn + 1);

@@ -1,13 +1,13 @@
 //! Tape for reverse accumulation: what was computed at pixels, kept so that what is asked of the
 //! result can be followed back to every value that it was made of.
 
-use crate::eval::arithmetic::{Word, computed};
+use crate::eval::arithmetic::{Tagged, computed};
 use crate::ir::graph::*;
 use crate::wordlength::adjoint::{Asked, of_both, of_operand};
 use slowlight_routine::{Op, Type};
 use std::num::NonZeroU64;
 
-/// A value, and where on the tape it stands: two words, as a [`Word`] is.
+/// A value, and where on the tape it stands: two words, as a [`Tagged`] is.
 #[derive(Clone, Copy)]
 pub struct Traced {
     bits: u64,
@@ -20,8 +20,8 @@ const NOWHERE: u32 = u32::MAX;
 
 impl Traced {
     #[inline]
-    fn new(word: Word, at: u32) -> Traced {
-        let (ty, bits) = word.parts();
+    fn new(tagged: Tagged, at: u32) -> Traced {
+        let (ty, bits) = tagged.parts();
         let ty = match ty {
             Type::Bool => 1,
             Type::Int => 3,
@@ -36,19 +36,19 @@ impl Traced {
 
     /// A value that nothing was computed for.
     #[inline]
-    pub fn nowhere(word: Word) -> Traced {
-        Traced::new(word, NOWHERE)
+    pub fn nowhere(tagged: Tagged) -> Traced {
+        Traced::new(tagged, NOWHERE)
     }
 
     /// The value.
     #[inline]
-    pub fn word(self) -> Word {
+    pub fn tagged(self) -> Tagged {
         let ty = match self.at.get() & 7 {
             1 => Type::Bool,
             3 => Type::Int,
             _ => Type::Real,
         };
-        Word::of(ty, self.bits)
+        Tagged::of(ty, self.bits)
     }
 
     #[inline]
@@ -118,9 +118,9 @@ impl Tape {
     fn leaf(&mut self, of: NodeId, traced: Traced) -> Traced {
         match self.entries.get_mut(of.0 as usize) {
             Some(leaf) if traced.at() == NOWHERE => {
-                let word = traced.word();
-                (leaf.value, leaf.is_real) = (word.real(), word.ty() == Type::Real);
-                Traced::new(word, of.0)
+                let tagged = traced.tagged();
+                (leaf.value, leaf.is_real) = (tagged.real(), tagged.ty() == Type::Real);
+                Traced::new(tagged, of.0)
             }
             _ => traced,
         }
@@ -130,11 +130,11 @@ impl Tape {
     #[inline]
     pub fn computed(&mut self, id: NodeId, op: Op, of: [NodeId; 2], args: [Traced; 2]) -> Traced {
         let from = [self.leaf(of[0], args[0]), self.leaf(of[1], args[1])];
-        let words = from.map(Traced::word);
-        let result = computed(op, &words[..op.arity()]);
+        let tagged = from.map(Traced::tagged);
+        let result = computed(op, &tagged[..op.arity()]);
         let args = match op.arity() {
-            1 => [words[0].real(), 0.0],
-            _ => words.map(Word::real),
+            1 => [tagged[0].real(), 0.0],
+            _ => tagged.map(Tagged::real),
         };
         self.push(id, Some(op), (from.map(Traced::at), args), result)
     }
@@ -142,8 +142,8 @@ impl Tape {
     /// What a place holds that is given a value; `of` is a node that reads it.
     pub fn copied(&mut self, of: NodeId, from: NodeId, traced: Traced) -> Traced {
         let traced = self.leaf(from, traced);
-        let word = traced.word();
-        self.push(of, None, ([traced.at(); 2], [word.real(); 2]), word)
+        let tagged = traced.tagged();
+        self.push(of, None, ([traced.at(); 2], [tagged.real(); 2]), tagged)
     }
 
     #[inline]
@@ -152,22 +152,22 @@ impl Tape {
         of: NodeId,
         op: Option<Op>,
         (from, args): ([u32; 2], [f64; 2]),
-        word: Word,
+        tagged: Tagged,
     ) -> Traced {
         if self.entries.len() >= MOST {
-            return Traced::nowhere(word);
+            return Traced::nowhere(tagged);
         }
         let at = self.entries.len() as u32;
         self.asked.push(Asked::default());
         self.entries.push(Entry {
             of,
             op,
-            is_real: word.ty() == Type::Real,
+            is_real: tagged.ty() == Type::Real,
             from,
             args,
-            value: word.real(),
+            value: tagged.real(),
         });
-        Traced::new(word, at)
+        Traced::new(tagged, at)
     }
 
     /// The node whose value stands somewhere.
@@ -183,7 +183,7 @@ impl Tape {
         tell: &mut impl FnMut(NodeId, f64, Asked),
     ) {
         for root in roots {
-            self.ask(root.at(), Asked::whole(root.word().real()));
+            self.ask(root.at(), Asked::whole(root.tagged().real()));
         }
         // What was computed last first, so that all is known that is asked of a value: whoever
         // asks stands behind it.

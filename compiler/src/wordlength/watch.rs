@@ -3,7 +3,7 @@
 
 use super::tape::{Tape, Traced};
 use crate::analysis::carried::{Readers, held_by};
-use crate::eval::arithmetic::{Arithmetic, Exact, Word};
+use crate::eval::arithmetic::{Arithmetic, Exact, Tagged};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::wordlength::adjoint::Asked;
@@ -79,7 +79,7 @@ impl<'g> Watch<'g> {
     pub fn send(&self, sent: impl Iterator<Item = Traced>) {
         let sum = |sum: f64, traced: Traced| {
             self.decides(traced);
-            sum + traced.word().real()
+            sum + traced.tagged().real()
         };
         self.received.set(sent.fold(0.0, sum));
     }
@@ -131,7 +131,7 @@ impl<'g> Watch<'g> {
         }
     }
 
-    fn chosen(&self, id: ParamId) -> Word {
+    fn chosen(&self, id: ParamId) -> Tagged {
         let own = self.exact.param(id);
         let found = self.exact.0.params.get(id.0 as usize);
         // A bool may be either, whatever is said of it.
@@ -144,7 +144,7 @@ impl<'g> Watch<'g> {
         };
         let part = self.part(id.0);
         let value = range.lo + part * (range.hi - range.lo);
-        Word::from(match param.ty {
+        Tagged::from(match param.ty {
             // As the scene has it: a program whose params are edited keeps its points.
             _ if self.choice == 0 => param.usual(),
             Type::Bool => Value::Bool(part > 0.5),
@@ -186,17 +186,17 @@ impl Arithmetic for &Watch<'_> {
     }
 
     fn gather(&self, received: Traced, sent: Traced) -> Traced {
-        Traced::nowhere(self.exact.gather(received.word(), sent.word()))
+        Traced::nowhere(self.exact.gather(received.tagged(), sent.tagged()))
     }
 
     fn truth(&self, traced: Traced) -> bool {
         self.decides(traced);
-        self.exact.truth(traced.word())
+        self.exact.truth(traced.tagged())
     }
 
     fn int(&self, traced: Traced) -> i32 {
         self.decides(traced);
-        self.exact.int(traced.word())
+        self.exact.int(traced.tagged())
     }
 
     fn step(&self, statement: &Statement) {

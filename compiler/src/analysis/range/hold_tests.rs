@@ -3,7 +3,7 @@
 
 use super::{Ranges, Slack, ranges};
 use crate::backend::emit;
-use crate::eval::arithmetic::{Exact, Word};
+use crate::eval::arithmetic::{Exact, Tagged};
 use crate::eval::heard::{Heard, Listener};
 use crate::eval::run::Run;
 use crate::ir::graph::*;
@@ -27,14 +27,14 @@ struct Compared<'r> {
 }
 
 /// Whether a value lies in a range, but for roundings.
-fn holds(range: Range, value: Word) -> bool {
+fn holds(range: Range, value: Tagged) -> bool {
     let x = value.real();
     let off = 1e-7 * (1.0 + x.abs());
     range.lo - off <= x && x <= range.hi + off
 }
 
-impl Listener<Word> for Compared<'_> {
-    fn applied(&self, id: NodeId, op: Op, args: &[Word], result: Word) {
+impl Listener<Tagged> for Compared<'_> {
+    fn applied(&self, id: NodeId, op: Op, args: &[Tagged], result: Tagged) {
         let at = id.0 as usize;
         if self.left[at] {
             return;

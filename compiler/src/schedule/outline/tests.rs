@@ -207,8 +207,8 @@ fn a_shape_is_one_subroutine() {
     let plain = picture(&graph, &schedule(&graph), &places);
     assert_eq!(plain, picture(&other, &tree, &places));
     // Balls, and sky around them.
-    assert!(plain.iter().any(|p| p.contains("Int, bits: 1 }")));
-    assert!(plain.iter().any(|p| p.contains("Int, bits: 0 }")));
+    assert!(plain.iter().any(|p| p.contains("Int(1)")));
+    assert!(plain.iter().any(|p| p.contains("Int(0)")));
 }
 
 #[test]
