@@ -46,7 +46,7 @@ pub(crate) fn choose(
     let about = match (points, runtime.real) {
         (None, Format::Scaled { bits }) => {
             let widths = Widths::uniform(bits);
-            Some(Points::new((graph, tree), ranges, runtime, &widths))
+            Some(Points::new((graph, tree), ranges, runtime, (&widths, &[])))
         }
         _ => None,
     };

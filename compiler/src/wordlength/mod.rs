@@ -34,6 +34,7 @@ mod sample_tests;
 mod saturation;
 mod scales;
 mod tape;
+mod uniform;
 mod watch;
 
 use crate::analysis::points::unify::{Other, agreed};
@@ -87,8 +88,9 @@ pub(crate) fn placed(
     let walk =
         |expected: &[Option<f64>]| ranges(graph, tree, &Slack::expecting(runtime, expected.into()));
     let mut expected = sampled.ends;
+    let shared = &sampled.shared[..];
     // Nothing is cut where its format does not end.
-    Points::new((graph, tree), &walk(&expected), runtime, widths).ends(
+    Points::new((graph, tree), &walk(&expected), runtime, (widths, shared)).ends(
         graph,
         &mut expected,
         &sampled.all,
@@ -103,21 +105,21 @@ pub(crate) fn placed(
         }
         planned = walk(&expected);
     }
-    let points = Points::new((graph, tree), &planned, runtime, widths);
+    let points = Points::new((graph, tree), &planned, runtime, (widths, shared));
     let slack = Slack::with_points(runtime, points.clone());
     let found = ranges(graph, tree, &slack);
     (points, found)
 }
 
 impl Points {
-    /// The points that ranges leave room for.
+    /// The points that ranges leave room for, none finer than those that values are to share.
     pub fn new(
         (graph, tree): (&Graph, &Tree),
         ranges: &Ranges,
         runtime: &Runtime,
-        widths: &Widths,
+        (widths, shared): (&Widths, &[Option<i8>]),
     ) -> Points {
-        let rooms = Rooms::new(graph, ranges, widths);
+        let rooms = Rooms::new(graph, ranges, (widths, shared));
         let copies = Copies::of(graph, tree);
         let capped = |id: NodeId| {
             let (bits, own) = (widths.value(id), rooms.of(widths.value(id), id));
@@ -130,18 +132,24 @@ impl Points {
             }
         };
         let mut own: Vec<i8> = graph.ids().map(capped).collect();
+        for (own, shared) in own.iter_mut().zip(shared) {
+            *own = shared.map_or(*own, |shared| shared.min(*own));
+        }
         no_finer(graph, &copies, &mut own);
         copies.no_finer(&mut own);
         read_at_most(graph, &copies, widths, &mut own);
         for id in graph.ids().filter(|id| graph.ty(*id) != Type::Real) {
             own[id.0 as usize] = 0;
         }
-        let param = |node: &Node| match node {
-            Node::Param(p) => Some(p.0 as usize),
+        // A param and a table are held once, whoever reads them.
+        let home = |node: &Node| match node {
+            Node::Param(p) => Some(2 * p.0 as usize),
+            Node::Lookup { table, .. } => Some(2 * table.0 as usize + 1),
             _ => None,
         };
-        let params = (graph.params.len(), param as Other);
-        let carried = agreed(graph, &mut own, (i8::MAX, i8::min), params);
+        let homes = 2 * graph.params.len().max(graph.tables.len());
+        let homes = (homes, home as Other);
+        let carried = agreed(graph, &mut own, (i8::MAX, i8::min), homes);
         // As far as each width has room for them.
         let held: Vec<(u8, Vec<i8>)> = (rooms.0.iter())
             .map(|(bits, room)| {
@@ -187,13 +195,24 @@ impl Points {
 struct Rooms(Vec<(u8, Vec<i8>)>);
 
 impl Rooms {
-    fn new(graph: &Graph, ranges: &Ranges, widths: &Widths) -> Rooms {
+    fn new(
+        graph: &Graph,
+        ranges: &Ranges,
+        (widths, shared): (&Widths, &[Option<i8>]),
+    ) -> Rooms {
         let greatest = |id: NodeId| {
             let range = ranges.result[id.0 as usize];
+            let shared = shared.get(id.0 as usize).copied().flatten();
+            let shared = shared.map(|frac| {
+                scale::most(widths.value(id)) as f64 * (-f64::from(frac)).exp2()
+            });
             match (graph.node(id), graph.constant(id)) {
                 (_, Some(value)) => value.real().abs().min(range.magnitude()),
                 (Node::Received, _) => RECEIVED,
-                (Node::Lookup { table, .. }, _) => greatest(graph, table),
+                // Where values share a point, entries are cut to it.
+                (Node::Lookup { table, .. }, _) => {
+                    shared.unwrap_or_else(|| greatest(graph, table))
+                }
                 _ => range.magnitude(),
             }
         };

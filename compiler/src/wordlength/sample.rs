@@ -16,6 +16,7 @@ use crate::wordlength::histogram::{BRIEF, Seen};
 use crate::wordlength::low_discrepancy::scattered;
 use crate::wordlength::rates::{Often, often};
 use crate::wordlength::scales;
+use crate::wordlength::uniform::shared;
 use rayon::prelude::*;
 use slowlight_routine::scale::{finest, fitting};
 use slowlight_routine::{Op, Type};
@@ -51,6 +52,8 @@ pub struct Expected {
     pub ends: Vec<Option<f64>>,
     /// With room for all that was asked for.
     pub all: Vec<f64>,
+    /// The fraction bits that values share in loops.
+    pub shared: Vec<Option<i8>>,
 }
 
 /// What values are at the pixels looked at.
@@ -185,8 +188,11 @@ impl Look<'_> {
 
 /// What values are expected to stay within in so many bits.
 pub fn expected(scene: (&Graph, &Tree), sample: &Sample, widths: &Widths) -> Expected {
+    let mut ends = chosen(scene, sample, widths);
+    let seen = (&sample.seen[..], sample.pixels);
     Expected {
-        ends: chosen(scene, sample, widths),
+        shared: shared(scene, seen, widths, &mut ends),
+        ends,
         all: sample.seen.iter().map(Seen::room).collect(),
     }
 }

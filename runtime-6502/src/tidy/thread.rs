@@ -25,11 +25,12 @@ pub(super) struct Known<'a> {
 impl Known<'_> {
     /// What becomes of a block's end; `state` is what places hold where it begins.
     pub fn edits(&self, block: &Block, state: &mut State) -> Vec<(usize, Edit)> {
-        let mut last = None;
+        let (mut last, mut before) = (None, "");
         let stale = values::stale(state, &block.lines);
         for k in block.lines.clone() {
             if let Some(Line::Code(code)) = self.lines.get(k) {
                 values::carry_out(state, self.flow, k, code, &stale);
+                before = last.map_or("", |last| name(self.lines, last));
                 last = Some(k);
             }
         }
@@ -43,6 +44,10 @@ impl Known<'_> {
                 Some(true) => self.always(k, state),
                 None => {
                     values::decided(state, own, true);
+                    // What is equal is not below.
+                    if own == "beq" && matches!(before, "cmp" | "cpx" | "cpy") {
+                        state.put(C, 1);
+                    }
                     self.onward(k, state)
                 }
             },

@@ -71,6 +71,10 @@ pub(super) fn carry_out(
         "bit" => return state.put(NZ, fresh(From::Two, k, NZ)),
         "clc" => return state.put(C, 0),
         "sec" => return state.put(C, 1),
+        // Nothing is below 0.
+        "cmp" | "cpx" | "cpy" if matches!(instruction.operand, Operand::Immediate(_, Some(0))) => {
+            return state.put(C, 1);
+        }
         _ => return,
     };
     let value = loaded.unwrap_or(fresh(From::Line, k, result));

@@ -11,6 +11,9 @@ use slowlight_routine::{Op, Range, Type};
 /// How many steps from a result down to what it is made of are gone.
 const DEEP: u32 = 8;
 
+/// In tables of so many entries is looked at most.
+const ENTRIES: usize = 4096;
+
 /// No less than this is said of the size of a square: below, formats may take it for 0.
 const SMALL: f64 = 1e-12;
 
@@ -21,8 +24,10 @@ impl Narrowing<'_> {
     }
 
     fn contract(&mut self, id: NodeId, deep: u32) {
-        let Node::Apply(op, operands) = self.graph.node(id) else {
-            return;
+        let (op, operands) = match self.graph.node(id) {
+            Node::Apply(op, operands) => (op, operands),
+            Node::Lookup { table, column, row } => return self.found_at(id, table, [column, row]),
+            _ => return,
         };
         if deep == 0 || op.result() != Type::Real || !self.slack.inverts() {
             return;
@@ -73,6 +78,46 @@ impl Narrowing<'_> {
                 self.put(operand, met);
                 self.contract(operand, deep - 1);
             }
+        }
+    }
+}
+
+impl Narrowing<'_> {
+    /// What an entry's being within narrowed bounds says of where it stands: no nearer to a
+    /// table's end than the outermost of such entries.
+    fn found_at(&mut self, id: NodeId, table: TableId, at: [NodeId; 2]) {
+        let Some(table) = self.graph.tables.get(table.0 as usize) else {
+            return;
+        };
+        // Reals are rounded, and those of some tables made by the program.
+        let few = table.entries.len() <= ENTRIES;
+        let shared = at.iter().any(|id| self.shared[id.0 as usize].is_some());
+        if table.ty == Type::Real || !few || shared {
+            return;
+        }
+        let held = self.now[id.0 as usize];
+        let [columns, rows] = at.map(|id| self.now[id.0 as usize]);
+        let fits = |at: &usize| {
+            let entry = table.entries[*at].value().real();
+            held.lo <= entry && entry <= held.hi
+        };
+        let all = table.within((columns.lo, columns.hi), (rows.lo, rows.hi));
+        let width = table.width as usize;
+        let mut bounds: Option<[Range; 2]> = None;
+        for k in all.filter(fits) {
+            let here = [k % width, k / width].map(|k| Range::point(k as f64));
+            bounds = Some(match bounds {
+                Some([a, b]) => [a.join(here[0]), b.join(here[1])],
+                None => here,
+            });
+        }
+        let Some(bounds) = bounds else { return };
+        for ((id, size), found) in at.into_iter().zip([table.width, table.height]).zip(bounds) {
+            // Who is beyond an end reads what stands there.
+            let last = f64::from(size) - 1.0;
+            let lo = if found.lo == 0.0 { f64::NEG_INFINITY } else { found.lo };
+            let hi = if found.hi == last { f64::INFINITY } else { found.hi };
+            self.narrow(id, Range::new(lo, hi), false);
         }
     }
 }

@@ -264,7 +264,7 @@ impl Narrowing<'_> {
         }
     }
 
-    fn narrow(&mut self, id: NodeId, range: Range, strict: bool) {
+    pub(super) fn narrow(&mut self, id: NodeId, range: Range, strict: bool) {
         if self.graph.constant(id).is_some() {
             return;
         }

@@ -46,6 +46,8 @@ pub(crate) fn folded(b: &mut Builder, op: Op, x: NodeId, y: NodeId, span: Span) 
         }
         Op::Mul | Op::IntMul if is(left, 1.0) => y,
         Op::Mul | Op::Div | Op::IntMul | Op::IntDiv if is(right, 1.0) => x,
+        // All bits.
+        Op::BitAnd if is(right, -1.0) => x,
         Op::Mul if is(left, 0.0) || is(right, 0.0) => b.constant(Value::Real(0.0), span),
         Op::Div if is(left, 0.0) => b.constant(Value::Real(0.0), span),
         Op::IntMul if is(left, 0.0) || is(right, 0.0) => b.constant(Value::Int(0), span),

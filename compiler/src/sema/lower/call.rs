@@ -32,7 +32,10 @@ impl<'a> Lower<'a> {
                     return Err(self.confused(span));
                 };
                 let args = self.arguments(&function.params, args, span)?;
-                self.expand(function, args, span)
+                match self.walk_inside(function, &args, span)? {
+                    Some(wall) => Ok(wall),
+                    None => self.expand(function, args, span),
+                }
             }
             Callee::Shape(id) => {
                 let params = self.program.shapes.get(id.0).map_or(&[][..], |s| &s.params);

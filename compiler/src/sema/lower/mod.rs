@@ -22,6 +22,7 @@ mod each;
 mod expr;
 mod flow;
 mod grid;
+mod inside;
 mod instances;
 mod leaving;
 mod merge;
