@@ -45,11 +45,12 @@ use slowlight_compiler::planner::pipeline::Pass;
 use slowlight_compiler::targets::{Target, formats};
 use slowlight_routine::{Format, Op, Runtime};
 
-/// How many formats are planned in earnest; the last is the one with fewest pixels wrong.
+/// How many formats are planned in earnest.
 const TRIES: usize = 4;
 
-/// The last but one is the quickest with at most such a part of the pixels wrong that may be.
-const SURE: f64 = 0.5;
+/// The last two are the quickest with at most such a part of the pixels wrong that may be, the
+/// very last the one with fewest if there is none.
+const SURE: [f64; 2] = [0.5, 0.0625];
 
 /// A plan, and what is known of its format.
 pub struct Chosen {
@@ -190,11 +191,11 @@ fn quickest(
             }
             (known, tries) = (vec![left.remove(0)], TRIES - 1);
         }
-        // The last try is for the surest, and that before for one that is nearly so and quicker.
         let next = match tries + 2 < TRIES || kept.is_some() {
             true => 0,
             false => {
-                let sure = |one: &Candidate| one.wrong <= SURE * goal && tries + 1 < TRIES;
+                let part = SURE[usize::from(tries + 1 == TRIES)];
+                let sure = |one: &Candidate| one.wrong <= part * goal;
                 let all = known.iter().map(|one| one.wrong).enumerate();
                 let surest = all.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(k, _)| k);
                 known.iter().position(sure).or(surest).unwrap_or(0)

@@ -1,11 +1,52 @@
 //! Options that only some machines have.
 
 use super::ScreenArgs;
+use crate::estimate;
 use crate::failure::{Failure, Outcome};
+use crate::scene::Scene;
 use crate::target_args::is_6502;
+use slowlight_compiler::backend::mos6502::LEAST_PAGE;
+use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::targets::{Language, System, Target};
 
+/// What part of its time a program takes at most that begins where the disc system has its
+/// memory, for that to be worth it.
+const WORTH: f64 = 0.97;
+
 impl ScreenArgs {
+    /// Plans a scene for a target and the best mode in which its program fits
+    /// the machine, `set` being values read from edited source. Where nothing is said of where
+    /// BASIC begins, what needs the disc system's memory has it.
+    ///
+    /// # Errors
+    /// Where the scene does not compile for it, the options do not fit, or the
+    /// program does not.
+    pub fn plan(
+        &self,
+        scene: &Scene,
+        target: &'static Target,
+        set: &[(String, Vec<f64>)],
+    ) -> Outcome<PlannedScene> {
+        let plan = self.plan_as_asked(scene, target, set);
+        let open = target.system == System::BbcBasic && self.page.is_none() && !self.is_toot();
+        let is_small = match &plan {
+            Ok(plan) => plan.is_made_small(),
+            Err(failure) => matches!(failure, Failure::TooLarge(_)),
+        };
+        if !open || !is_small {
+            return plan;
+        }
+        let low = ScreenArgs {
+            page: Some(LEAST_PAGE),
+            ..self.clone()
+        };
+        match (&plan, low.plan_as_asked(scene, target, set)) {
+            (Ok(high), Ok(low)) if estimate::cycles(&low) > WORTH * estimate::cycles(high) => plan,
+            (_, Ok(low)) => Ok(low),
+            _ => plan,
+        }
+    }
+
     /// # Errors
     /// Where an option is another machine's.
     pub(super) fn check_machine(&self, target: &Target) -> Outcome<()> {

@@ -70,7 +70,7 @@ pub struct ScreenArgs {
     #[arg(long, value_name = "GOAL", help_heading = "How numbers are held", conflicts_with_all = ["format", "error"])]
     pub goal: Option<ErrorGoal>,
     /// Where programs begin on a BBC Micro, in hexadecimal: 1900 with a disc, E00 without
-    /// [default: 1900; machine code that needs more moves itself down to E00]
+    /// [default: 1900; a program that needs more is at E00, where its disc moves it]
     #[arg(long, value_name = "PAGE", value_parser = page)]
     pub page: Option<u16>,
     /// On the 6502 targets: opcodes that the data sheet leaves out, where two instructions
@@ -203,13 +203,8 @@ impl ScreenArgs {
         })
     }
 
-    /// Plans a scene for a target and the best mode in which its program fits
-    /// the machine, `set` being values read from edited source.
-    ///
-    /// # Errors
-    /// Where the scene does not compile for it, the options do not fit, or the
-    /// program does not.
-    pub fn plan(
+    /// The same where the options say all there is to say of the machine's memory.
+    fn plan_as_asked(
         &self,
         scene: &Scene,
         target: &'static Target,

@@ -23,28 +23,48 @@ pub struct Homes {
     pub one: FxHashMap<Place, Place>,
 }
 
+/// Where a result may be written where an operand is read.
+#[derive(Clone, Copy)]
+pub enum InPlace<'w> {
+    /// Where one is a copy of the other: an expression is computed before it is assigned.
+    Copies,
+    /// Where what computes a value reads all of its first operand, and of its second, that it
+    /// reads behind what it has written of the result.
+    Where(&'w dyn Fn(NodeId) -> [bool; 2]),
+}
+
 /// The variables of a plan's places, as few as are easily found.
-pub fn quick_homes(plan: &Plan) -> Homes {
+pub fn homes(plan: &Plan, in_place: InPlace<'_>) -> Homes {
     let flow = Flow::of(plan);
     let places = flow.places.len();
     let mut meets = flow.meets();
     // What may not share a variable beside: operands are read before a result is
     // written, but not all of a statement's text is that careful.
     let mut close = Interference::new(places);
+    let copied = flow.copied();
     for step in &flow.steps {
         let Some(written) = step.writes else { continue };
+        let mut safe = None;
         for &read in &step.reads {
-            if read != written && step.copies != Some(read) {
+            if read == written || step.copies == Some(read) {
+                continue;
+            }
+            let both = copied.has(read) && copied.has(written);
+            let is_safe = both && {
+                let safe = safe.get_or_insert_with(|| flow.safe(step, in_place));
+                safe.contains(&read)
+            };
+            if !is_safe {
                 close.add(written, read);
             }
         }
     }
-    let mut classes = Classes::new(places);
+    let mut classes = Classes::new(places, matches!(in_place, InPlace::Copies));
     for step in flow.by_frequency() {
         if let (Some(to), Some(from)) = (step.writes, step.copies) {
             let formats = [to, from].map(|place| flow.format(place));
             if formats[0] == formats[1] {
-                classes.join(to, from, &mut [&mut meets, &mut close]);
+                classes.join(to, from, [&mut meets, &mut close]);
             }
         }
     }
@@ -54,7 +74,7 @@ pub fn quick_homes(plan: &Plan) -> Homes {
             && let Some(from) = flow.first_of_extreme(to)
             && flow.format(to) == flow.format(from)
         {
-            classes.join(to, from, &mut [&mut meets, &mut close]);
+            classes.join(to, from, [&mut meets, &mut close]);
         }
     }
     flow.coloured(&mut classes, &meets, &close)
@@ -76,6 +96,42 @@ impl Flow<'_> {
             all.keep(&self.meet_where(&ways), &own);
         }
         all
+    }
+
+    /// The places that are copied, or copies.
+    fn copied(&self) -> Set {
+        let mut all = Set::new(self.places.len());
+        for step in &self.steps {
+            if let (Some(to), Some(from)) = (step.writes, step.copies) {
+                all.add(to);
+                all.add(from);
+            }
+        }
+        all
+    }
+
+    /// The places that a step reads of which none is read behind a part of its result: those
+    /// that it reads once, as its operands.
+    fn safe(&self, step: &Step, in_place: InPlace<'_>) -> Vec<usize> {
+        let (InPlace::Where(is_safe), Some(id)) = (in_place, step.computes) else {
+            return Vec::new();
+        };
+        let Node::Apply(op, args) = self.plan.graph.node(id) else {
+            return Vec::new();
+        };
+        let operands = args.iter().zip(is_safe(id)).take(op.arity());
+        let places = operands.map(|(arg, safe)| {
+            let place = self.plan.place(*arg).and_then(|place| self.known(place));
+            (place, safe)
+        });
+        let places: Vec<(Option<usize>, bool)> = places.collect();
+        let safe = |place: usize| places.iter().all(|(p, safe)| *p != Some(place) || *safe);
+        let own = |place: usize| {
+            let times = places.iter().filter(|(p, _)| *p == Some(place)).count();
+            step.reads.iter().filter(|read| **read == place).count() == times
+        };
+        let all = places.iter().filter_map(|(place, _)| *place);
+        all.filter(|place| safe(*place) && own(*place)).collect()
     }
 
     /// The steps, those first that are carried out most often as far as loops and choices
@@ -207,29 +263,38 @@ impl Interference {
 }
 
 /// Places that became one.
-struct Classes(Vec<usize>);
+struct Classes {
+    /// For each place another one of its class, for the first of them itself.
+    first: Vec<usize>,
+    /// Whether a copy may be one with what it is read with.
+    may_be_close: bool,
+}
 
 impl Classes {
-    fn new(places: usize) -> Classes {
-        Classes((0..places).collect())
+    fn new(places: usize, may_be_close: bool) -> Classes {
+        Classes {
+            first: (0..places).collect(),
+            may_be_close,
+        }
     }
 
     fn of(&self, mut place: usize) -> usize {
-        while self.0[place] != place {
-            place = self.0[place];
+        while self.first[place] != place {
+            place = self.first[place];
         }
         place
     }
 
-    /// Makes one class of two, if the first of what they have says that they do
-    /// not interfere.
-    fn join(&mut self, a: usize, b: usize, all: &mut [&mut Interference]) {
+    /// Makes one class of two, if they do not interfere: the first of `all` says which are
+    /// alive together, the second which are read where the other is written.
+    fn join(&mut self, a: usize, b: usize, all: [&mut Interference; 2]) {
         let (a, b) = (self.of(a), self.of(b));
         let (one, other) = (a.min(b), a.max(b));
-        if one == other || all[0].between(one, other) {
+        let apart = all[0].between(one, other) || !self.may_be_close && all[1].between(one, other);
+        if one == other || apart {
             return;
         }
-        self.0[other] = one;
-        all.iter_mut().for_each(|meets| meets.join(one, other));
+        self.first[other] = one;
+        all.into_iter().for_each(|meets| meets.join(one, other));
     }
 }

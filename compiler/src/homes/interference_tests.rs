@@ -5,7 +5,7 @@
 
 use crate::eval::random::Random;
 use crate::eval::random_graphs;
-use crate::homes::interference::quick_homes;
+use crate::homes::interference::{InPlace, homes};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::passes::simplify::fold::fold;
@@ -154,7 +154,7 @@ impl Walk<'_> {
 
 /// Walks a plan's picture along random ways; how many reads were looked at.
 fn looked_at(plan: &PlannedScene, seed: u64, pixels: u32) -> u32 {
-    let homes = quick_homes(plan);
+    let homes = homes(plan, InPlace::Copies);
     let mut walk = Walk {
         plan,
         number: &homes.number,
@@ -255,7 +255,7 @@ fn values_that_share_a_variable_with_subroutines_never_meet() {
 fn copies_are_joined() {
     let scene = check("mirrors", include_str!("../../../examples/mirrors.scn"));
     let plan = planned(&scene.lower(&Options::default()).unwrap());
-    let homes = quick_homes(&plan).number;
+    let homes = homes(&plan, InPlace::Copies).number;
     let (mut left, mut joined) = (0, 0);
     walk(&plan.tree.pixel, &mut |statement| {
         if let Statement::Set {

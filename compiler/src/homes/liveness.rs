@@ -30,6 +30,8 @@ pub struct Step {
     pub writes: Option<usize>,
     /// The place that it copies.
     pub copies: Option<usize>,
+    /// The value that it computes.
+    pub computes: Option<NodeId>,
     /// Where control goes on beside the next step.
     jumps: Vec<usize>,
     /// Whether it does not go on to the next step.
@@ -153,6 +155,7 @@ impl<'p> Flow<'p> {
                     operands.for_each(|operand| self.reads(at, operand));
                     let place = Place::of(&self.plan.graph, *id);
                     self.steps[at].writes = Some(self.number(place));
+                    self.steps[at].computes = Some(*id);
                 }
                 Statement::Set { place, from } => {
                     match *from {

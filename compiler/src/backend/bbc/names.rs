@@ -1,7 +1,7 @@
 //! What variables, constants and tables are called.
 
 use super::Style;
-use crate::homes::interference::quick_homes;
+use crate::homes::interference::{InPlace, homes};
 use crate::ir::graph::NodeId;
 use crate::ir::tree::{Place, SubroutineId, tabulated};
 use crate::plan::Plan;
@@ -54,7 +54,7 @@ impl Names {
             names.params.push(name);
         }
         // Values share variables where names are short: few are quick, and small.
-        let shared = (Style::of(plan) != Style::Listing).then(|| quick_homes(plan));
+        let shared = (Style::of(plan) != Style::Listing).then(|| homes(plan, InPlace::Copies));
         let mut sharing: FxHashMap<(Format, usize), String> = FxHashMap::default();
         for (place, format) in plan.places() {
             let mut fresh = || names.unique(plan.home(place), suffix(format.scalar()));

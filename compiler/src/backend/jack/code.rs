@@ -162,16 +162,22 @@ impl<'p> Code<'p> {
             }
             Statement::If { cond, yes, no } => {
                 let cond = self.read(*cond);
-                if yes.is_empty() {
-                    self.text.open(format!("if (~{}) {{", cond.at(TERM)));
-                    self.block(no, name);
-                } else {
-                    self.text.open(format!("if ({}) {{", cond.text));
-                    self.block(yes, name);
-                    if !no.is_empty() {
-                        self.text.close("}");
-                        self.text.open("else {");
-                        self.block(no, name);
+                // An arm of copies that are none is empty.
+                let [yes, no] = [yes, no].map(|arm| self.apart(|code| code.block(arm, name)));
+                match (yes.is_empty(), no.is_empty()) {
+                    (true, true) => return,
+                    (true, false) => {
+                        self.text.open(format!("if (~{}) {{", cond.at(TERM)));
+                        self.text.append(no);
+                    }
+                    (false, none) => {
+                        self.text.open(format!("if ({}) {{", cond.text));
+                        self.text.append(yes);
+                        if !none {
+                            self.text.close("}");
+                            self.text.open("else {");
+                            self.text.append(no);
+                        }
                     }
                 }
                 self.text.close("}");

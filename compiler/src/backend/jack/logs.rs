@@ -119,7 +119,7 @@ impl Code<'_> {
             text = text.replace("{r}", &home);
             if sign {
                 text = simplified(&text);
-                let once = template.matches("let {r+} =").count() == 1 && !self.names.shared;
+                let once = template.matches("let {r+} =").count() == 1;
                 let other = once.then(|| self.same_sign(&text, args, &operands));
                 if let Some(other) = other.flatten() {
                     self.same_signs.insert(id, other);
@@ -151,10 +151,11 @@ impl Code<'_> {
         let (_, sign) = text.strip_suffix(';')?.split_once(" = ")?;
         let own = |id: NodeId| {
             let node = self.plan.graph.node(id);
-            matches!(
+            let computed = matches!(
                 node,
                 Node::Apply(..) | Node::Select { .. } | Node::Lookup { .. }
-            )
+            );
+            computed && self.names.is_alone(Place::Node(id))
         };
         let is = |(id, operand): &(NodeId, &Operand)| operand.sign == sign && own(*id);
         let found = args.into_iter().zip(operands).find(is)?;

@@ -37,6 +37,7 @@ mod error_names;
 mod expression;
 mod fixed;
 mod frame;
+mod in_place;
 mod kept_names;
 mod logs;
 mod lookup;

@@ -5,7 +5,8 @@
 //! meet. A param keeps its label whatever happens, unless Jack reserves it.
 
 use super::canvas::Canvas;
-use crate::homes::intervals::shared_homes;
+use super::in_place::in_place;
+use crate::homes::interference::{InPlace, homes};
 use crate::ir::graph::*;
 use crate::ir::tree::{Place, SubroutineId, tabulated};
 use crate::plan::Plan;
@@ -88,8 +89,8 @@ pub(super) struct Names {
     signs: BTreeMap<String, String>,
     /// What gathers the screen's words, where the program does.
     pub canvas: Option<Canvas>,
-    /// Whether values share variables.
-    pub shared: bool,
+    /// How many places have each variable.
+    places: FxHashMap<String, u32>,
     taken: BTreeSet<String>,
 }
 
@@ -111,7 +112,7 @@ impl Names {
             subroutines: Vec::new(),
             signs: BTreeMap::new(),
             canvas: None,
-            shared: false,
+            places: FxHashMap::default(),
             taken: taken.chain(more).collect(),
         };
         names.taken.insert(names.class.clone());
@@ -121,15 +122,20 @@ impl Names {
         names.canvas = Canvas::new(plan, &mut |name| names.fresh(name));
         // In little memory values share fields, and statics, of which there are few.
         let many = plan.statics && plan.places().len() > SHARED_BEYOND;
-        names.shared = plan.tight || many;
-        let shared = names.shared.then(|| shared_homes(plan));
+        let scarce = plan.tight || many;
+        let is_safe = |id| in_place(plan, id);
+        let homes = homes(plan, InPlace::Where(&is_safe));
         let mut sharing: FxHashMap<(Format, usize), String> = FxHashMap::default();
         for (place, format) in plan.places() {
-            let mut fresh = || names.fresh(plan.home(place));
-            let name = match shared.as_ref().and_then(|s| s.get(&place)) {
+            // Copies of each other are one.
+            let one = homes.one.get(&place).and_then(|one| names.homes.get(one));
+            let one = one.cloned();
+            let fresh = || names.fresh(plan.home(place));
+            let name = match homes.number.get(&place).filter(|_| scarce) {
                 Some(&at) => sharing.entry((format, at)).or_insert_with(fresh).clone(),
-                None => fresh(),
+                None => one.unwrap_or_else(fresh),
             };
+            *names.places.entry(name.clone()).or_default() += 1;
             names.homes.insert(place, name);
         }
         for id in tabulated(&plan.graph, &plan.tree) {
@@ -152,6 +158,12 @@ impl Names {
         let name = found.unwrap_or_default();
         self.taken.insert(name.clone());
         name
+    }
+
+    /// Whether no other place shares a place's variable.
+    pub fn is_alone(&self, place: Place) -> bool {
+        let sharing = self.homes.get(&place).and_then(|name| self.places.get(name));
+        sharing == Some(&1)
     }
 
     /// A value's array by columns.

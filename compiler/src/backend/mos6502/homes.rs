@@ -1,5 +1,6 @@
 //! Where values live, and what they are called in the program.
 
+use super::in_place::in_place;
 use super::logs;
 use super::memory::{self, Machine, Places, Room};
 use super::moved::{self, Moved};
@@ -8,7 +9,7 @@ use super::shapes::{self, Shapes};
 use super::slots::{Slot, of_axis};
 use super::uses;
 use crate::analysis::rate::rates;
-use crate::homes::intervals::shared_homes;
+use crate::homes::interference::{InPlace, homes};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::plan::Plan;
@@ -46,15 +47,21 @@ pub(super) struct Homes {
     moved: BTreeSet<Moved>,
 }
 
-/// For each place, the first of those that it shares a home with.
+/// For each place, the first of those that it shares a home with: where memory is short or the
+/// zero page holds more of them, all that are never alive together, else copies of each other.
 fn sharing(plan: &Plan, shapes: Option<&Shapes>) -> FxHashMap<Place, Place> {
-    let homes = shared_homes(plan);
+    let is_safe = |id| in_place(plan, shapes, id);
+    let homes = homes(plan, InPlace::Where(&is_safe));
+    let bytes = |place| shapes.map_or(0, |shapes| shapes.of(plan, place).bytes);
+    if !plan.tight && shapes.is_none() {
+        return homes.one;
+    }
     let mut first: FxHashMap<(Format, u8, usize), Place> = FxHashMap::default();
     let mut shared = FxHashMap::default();
     for (place, format) in plan.places() {
-        if let Some(&at) = homes.get(&place) {
-            let bytes = shapes.map_or(0, |shapes| shapes.of(plan, place).bytes);
-            shared.insert(place, *first.entry((format, bytes, at)).or_insert(place));
+        if let Some(&at) = homes.number.get(&place) {
+            let key = (format, bytes(place), at);
+            shared.insert(place, *first.entry(key).or_insert(place));
         }
     }
     shared
@@ -64,12 +71,8 @@ impl Homes {
     pub fn new(plan: &Plan) -> Homes {
         let fused = fused(plan);
         let shapes = shapes::shapes(plan);
-        // The zero page holds more of values that share homes, and a copy is none where both
-        // are in one.
-        let shared = match plan.tight || shapes.is_some() {
-            true => sharing(plan, shapes.as_ref()),
-            false => FxHashMap::default(),
-        };
+        // A copy is none where both are in one.
+        let shared = sharing(plan, shapes.as_ref());
         let moved = moved::moved(plan);
         let count = uses::counted(plan, &moved, &shared, &fused);
         let mut slots: Vec<(Slot, u64)> = count.into_iter().collect();

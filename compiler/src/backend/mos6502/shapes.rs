@@ -3,6 +3,7 @@
 
 use super::logs;
 use super::slots::Slot;
+use crate::analysis::carried::{held_by, readers};
 use crate::ir::graph::*;
 use crate::ir::ramp;
 use crate::ir::tree::*;
@@ -57,6 +58,7 @@ pub(super) fn shapes(plan: &Plan) -> Option<Shapes> {
         });
     }
     let asked = asked(plan);
+    let carried = readers(&plan.graph);
     let shape = |place: Place, range: Range| match plan.place_format(place) {
         Format::Int { .. } => {
             let shape = Shape::of(stepped(plan, place).unwrap_or(range), MOST);
@@ -73,7 +75,8 @@ pub(super) fn shapes(plan: &Plan) -> Option<Shapes> {
         Format::Bool => Shape::of(Range::new(0.0, 1.0), 1),
         real => match plan.points() {
             Some(points) => of_real(scale::in_units(range, points.place(place)), size(real)),
-            None => logs::shape(plan, place),
+            // As who reads it knows it.
+            None => logs::shape(plan, held_by(&carried, place).map_or(place, Place::Node)),
         },
     };
     let places = ranges.into_iter().map(|(p, r)| (p, shape(p, r))).collect();

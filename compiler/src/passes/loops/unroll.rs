@@ -14,16 +14,23 @@ use crate::passes::rewrite::arena::Arena;
 use slowlight_routine::Op;
 use std::collections::BTreeMap;
 
-/// How many turns a loop may have, and how many nodes these may have together.
-const TURNS: usize = 16;
+/// How many turns a loop may have, how many nodes these may have together that are computed more
+/// than once a picture, and how many in all.
+const TURNS: usize = 32;
 const NODES: usize = 600;
+const ALL: usize = 3000;
 
 /// The graph with such loops unrolled; nothing where it has none.
 pub fn unroll(graph: &Graph) -> Option<Graph> {
     let rates = rates(graph);
     let fits = |(of, going): (LoopId, usize)| {
         let body = body(graph, &rates, of);
-        let short = going <= TURNS && (going + 1) * body.len() <= NODES;
+        let own = [Dependence::Frame, Dependence::Loop(of), Dependence::Last(of)];
+        let again = |id: &&NodeId| rates.rate(**id).iter().any(|d| !own.contains(d));
+        let times = going + 1;
+        let short = going <= TURNS
+            && times * body.iter().filter(again).count() <= NODES
+            && times * body.len() <= ALL;
         let result = |id: &NodeId| matches!(graph.node(*id), Node::Result { .. });
         let innermost = !body.iter().any(result);
         (short && innermost).then_some((of, Turns { body, going }))

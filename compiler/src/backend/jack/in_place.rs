@@ -1,0 +1,48 @@
+//! Results in place: whether an operation's statements read an operand before they write the
+//! result, so that both may be one variable.
+
+use crate::ir::graph::*;
+use crate::plan::Plan;
+use slowlight_routine::Form;
+
+/// Whether that is so of each operand of a value.
+pub(super) fn in_place(plan: &Plan, id: NodeId) -> [bool; 2] {
+    let (Node::Apply(..), Some(routine)) = (plan.graph.node(id), plan.routine(id)) else {
+        return [false; 2];
+    };
+    match routine.form {
+        // An object is written field by field.
+        _ if plan.format(id).is_object() => [false; 2],
+        Form::Expression { .. } => [true; 2],
+        Form::Statement(template) => [0, 1].map(|k| is_read_first(template, k)),
+    }
+}
+
+/// Whether no line of a template reads an operand, or its sign, behind one that writes the
+/// result's, and none is carried out again.
+fn is_read_first(template: &str, k: usize) -> bool {
+    let both = [(format!("{{{k}}}"), "{r}"), (format!("{{{k}+}}"), "{r+}")];
+    let mut written = [false; 2];
+    for line in template.lines() {
+        for ((operand, result), written) in both.iter().zip(&mut written) {
+            if *written && line.contains(operand) || line.trim_start().starts_with("while") {
+                return false;
+            }
+            *written |= line.contains(&format!("let {result} ="));
+        }
+    }
+    template.contains("let {r} =")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_read_behind_the_result_is_found() {
+        assert!(is_read_first("let {r} = {0} + {1};\nlet {r+} = {0+} = {1+};", 0));
+        assert!(!is_read_first("let {r} = {0};\nif ({0} < {1}) {\nlet {r} = {1};\n}", 0));
+        assert!(!is_read_first("let {r+} = {1+};\nlet {r} = {0};\nlet {r+} = {0+};", 0));
+        assert!(!is_read_first("do {r}.add({0}, {1})", 0));
+    }
+}
