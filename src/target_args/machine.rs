@@ -40,8 +40,13 @@ impl ScreenArgs {
             page: Some(LEAST_PAGE),
             ..self.clone()
         };
+        // What is called takes longer than is estimated.
+        let calls = |plan: &PlannedScene| plan.tight || plan.calls_at_pixels();
+        let worth = |high: &PlannedScene, low: &PlannedScene| {
+            calls(high) && !calls(low) || estimate::cycles(low) <= WORTH * estimate::cycles(high)
+        };
         match (&plan, low.plan_as_asked(scene, target, set)) {
-            (Ok(high), Ok(low)) if estimate::cycles(&low) > WORTH * estimate::cycles(high) => plan,
+            (Ok(high), Ok(low)) if !worth(high, &low) => plan,
             (_, Ok(low)) => Ok(low),
             _ => plan,
         }

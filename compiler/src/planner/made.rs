@@ -16,6 +16,7 @@ use crate::passes::loops::strength_reduction::runs::is_exact;
 use crate::passes::loops::strip_mine::strip_mined;
 use crate::passes::simplify::fold::fold;
 use crate::passes::simplify::integer_parts::integer_parts;
+use crate::passes::branches::square_comparisons::square_comparisons;
 use crate::passes::simplify::unit_vectors::unit_vectors;
 use crate::plan::Goal;
 use crate::plan::params;
@@ -375,6 +376,12 @@ fn steady(cx: &Context, origin: &Graph, rounds: u32) -> Analysed {
     }
     if rounds > 0
         && let Some(next) = cx.always(Pass::UnitVectors, || unit_vectors(&now.graph, &now.ranges))
+    {
+        now = cx.scheduled(fold(&next));
+    }
+    let squared = || square_comparisons(&now.graph, &now.ranges);
+    if rounds > 0
+        && let Some(next) = cx.always(Pass::SquareComparisons, squared)
     {
         now = cx.scheduled(fold(&next));
     }

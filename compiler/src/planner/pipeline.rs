@@ -6,6 +6,7 @@
 
 use crate::analysis::range::Ranges;
 use crate::ir::graph::Graph;
+use crate::passes::algebra::root_of_choice::root_of_choice;
 use crate::passes::branches::cross_multiply::cross_multiply;
 use crate::passes::branches::prune_minima::prune_minima;
 use crate::passes::loops::polynomials::differences::forward_differences;
@@ -49,6 +50,7 @@ passes! {
     IntegerParts "integer-parts" "passes/simplify/integer_parts" "integers out of floors, where sums have few bits"
     AccuracyRules "accuracy-rules" "passes/accuracy" "rewriting for accuracy, by rules with conditions"
     UnitVectors "unit-vectors" "passes/simplify/unit_vectors" "lengths of unit vectors folded"
+    SquareComparisons "square-comparisons" "passes/branches/square_comparisons" "roots compared by their squares"
     AngleAddition "angle-addition" "passes/algebra/angle_addition" "sines of an arc's multiples by addition theorems"
     IntegerTables "integer-tables" "passes/loops/induction_tables" "tables of functions of integers of few values"
     Unroll "unroll" "passes/loops/unroll" "full unrolling of counted loops"
@@ -70,6 +72,7 @@ passes! {
     LoopPolynomials "loop-polynomials" "passes/loops/polynomials" "polynomials of what a loop's turns change, by coefficients"
     ForwardDifferences "forward-differences" "passes/loops/polynomials/differences" "polynomials of what grows evenly from turn to turn, by forward differences"
     CrossMultiply "cross-multiply" "passes/branches/cross_multiply" "comparisons without division"
+    RootOfChoice "root-of-choice" "passes/algebra/root_of_choice" "choices among roots as one root"
     PruneMinima "prune-minima" "passes/branches/prune_minima" "branch and bound on minima and maxima"
     ConstantFactors "constant-factors" "passes/simplify/constant_factors" "constant factors joined"
     Remainders "remainders" "passes/simplify/remainders" "remainders by constants as differences"
@@ -98,6 +101,7 @@ pub const REWRITES: &[(Pass, Rewrite)] = &[
     (Pass::LoopPolynomials, polynomials),
     (Pass::ForwardDifferences, forward_differences),
     (Pass::CrossMultiply, cross_multiply),
+    (Pass::RootOfChoice, root_of_choice),
     (Pass::PruneMinima, prune_minima),
     (Pass::ConstantFactors, constant_factors),
     (Pass::Remainders, remainders),

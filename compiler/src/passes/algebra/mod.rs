@@ -7,4 +7,5 @@ pub mod identities;
 pub mod polynomial;
 pub mod ray_parameter;
 pub mod reassociate;
+pub mod root_of_choice;
 pub mod unnormalised;

@@ -7,4 +7,5 @@ pub mod prune_minima;
 pub mod push_into_select;
 pub mod shannon;
 pub mod specialise_factors;
+pub mod square_comparisons;
 pub mod unswitch;
