@@ -6,7 +6,7 @@ use crate::machine::{Loaded, MachineRun, Sizes};
 use crate::picture::Picture;
 use slowlight_compiler::backend::Document;
 use slowlight_compiler::backend::mos6502::vcs::{
-    ASK, ASKED, CONVERT, CROSSED, Cartridge, PUBLISH, PUBLISHED, Shape, WORK, cartridge,
+    ASKED, CONVERT, CROSSED, Cartridge, LEAST, PUBLISH, PUBLISHED, Shape, WORK, cartridge,
 };
 use slowlight_compiler::plan::Plan;
 use slowlight_compiler::targets::System;
@@ -14,7 +14,7 @@ use slowlight_vm::Screen;
 use slowlight_vm::keys::{Keyboard, Script, Unit};
 use slowlight_vm::mos6502::assemble;
 use slowlight_vm::mos6502::worst::Question;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Cycles of a tick of the timer.
 const TICK: u64 = 64;
@@ -27,10 +27,14 @@ const LOOK: u64 = 4 + 2 + 2 + 6 + 4 + 6 + 7;
 const PART: u64 = 50;
 
 /// What is proved of a cartridge's work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proof {
     /// The most cycles between two looks at the timer.
     pub slice: u64,
+    /// The same behind each look, by its label.
+    pub behind: BTreeMap<String, u64>,
+    /// And where playfield was made.
+    pub published: u64,
     /// The most cycles of making playfield of the columns.
     pub convert: u64,
 }
@@ -49,15 +53,25 @@ pub fn proved(plan: &Plan) -> Outcome<(Cartridge, Proof)> {
     let mut made = cartridge(plan).map_err(wrong)?;
     let proof = proof(&made.document).map_err(wrong)?;
     let ticks = |cycles: u64| (cycles + LOOK).div_ceil(TICK) + 1;
-    let (ask, publish) = (ticks(proof.slice), ticks(proof.slice + proof.convert));
-    if publish > PART {
+    let publish = ticks(proof.published + proof.convert);
+    if publish.max(ticks(proof.slice)) > PART {
         return Err(wrong(format!(
             "a slice of its work takes up to {} cycles, for which a frame has no room",
             proof.slice
         )));
     }
-    set(&mut made.document, ASK, ask);
     set(&mut made.document, PUBLISH, publish);
+    // Each look asks for as much as the slice behind it takes.
+    let mut least = None;
+    let lines = made.document.text.lines().map(|line| {
+        let slice = line.strip_suffix(':').and_then(|at| proof.behind.get(at));
+        least = slice.copied().or(least);
+        match line.starts_with(LEAST).then(|| least.take()).flatten() {
+            Some(cycles) => format!("{LEAST}{}\n", ticks(cycles)),
+            None => format!("{line}\n"),
+        }
+    });
+    made.document.text = lines.collect();
     Ok((made, proof))
 }
 
@@ -111,8 +125,21 @@ fn proof(document: &Document) -> Result<Proof, String> {
             line.unwrap_or_default().trim()
         )
     };
+    let each = question.slices_behind_ends().map_err(told)?;
+    let most = |head: &str| {
+        let all = labels(head).into_iter();
+        all.filter_map(|at| each.get(&at)).copied().max().unwrap_or(0)
+    };
+    let first = question.worst_slice(at(WORK)).map_err(told)?;
+    let asked = assembly.symbols.iter().filter(|(name, _)| name.starts_with(ASKED));
+    let behind = asked.filter_map(|(name, at)| {
+        let cycles = each.get(&u16::try_from(*at).ok()?)?;
+        Some((name.clone(), *cycles))
+    });
     Ok(Proof {
-        slice: question.slices(at(WORK)).map_err(told)?,
+        slice: each.values().copied().fold(first, u64::max),
+        behind: behind.collect(),
+        published: most(PUBLISHED),
         convert: question.worst(at(CONVERT)).map_err(told)?,
     })
 }

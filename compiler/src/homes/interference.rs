@@ -19,7 +19,8 @@ use slowlight_routine::{Format, Op};
 pub struct Homes {
     /// For each place, the number of its variable, among those of its format.
     pub number: FxHashMap<Place, usize>,
-    /// The places that are one because of a copy: for each, the first of them.
+    /// The places that are one because of a copy: for each, the first of them that the scene has
+    /// a name for, or else the first.
     pub one: FxHashMap<Place, Place>,
 }
 
@@ -188,6 +189,15 @@ impl Flow<'_> {
         meets
     }
 
+    /// Whether the scene has a name for what a place holds.
+    fn is_named(&self, place: usize) -> bool {
+        match self.places[place] {
+            Place::Node(id) => self.plan.graph.names.contains_key(&id),
+            Place::Carried(..) => true,
+            Place::Scratch(..) => false,
+        }
+    }
+
     /// A variable for each class of places: the first that none has with which
     /// one of its places interferes.
     fn coloured(&self, classes: &mut Classes, meets: &Interference, close: &Interference) -> Homes {
@@ -200,11 +210,19 @@ impl Flow<'_> {
         };
         order.sort_by_key(|place| (folded(*place), self.span[*place].0));
         let mut homes = Homes::default();
+        let mut named: FxHashMap<usize, Place> = FxHashMap::default();
+        for place in &order {
+            if self.is_named(*place) {
+                let one = classes.of(*place);
+                named.entry(one).or_insert(self.places[*place]);
+            }
+        }
         let mut given: Vec<Option<usize>> = vec![None; self.places.len()];
         let formats: Vec<Format> = (0..given.len()).map(|place| self.format(place)).collect();
         for place in order {
             let one = classes.of(place);
-            homes.one.insert(self.places[place], self.places[one]);
+            let of_class = named.get(&one).copied().unwrap_or(self.places[one]);
+            homes.one.insert(self.places[place], of_class);
             let number = given[one].unwrap_or_else(|| {
                 let taken: FxHashSet<usize> = (meets.0[one].iter().chain(close.0[one].iter()))
                     .filter(|class| formats[*class] == formats[one])

@@ -152,9 +152,18 @@ impl Walk<'_> {
     }
 }
 
-/// Walks a plan's picture along random ways; how many reads were looked at.
+/// Walks a plan's picture along random ways, with results in place where copies are and where
+/// all are; how many reads were looked at.
 fn looked_at(plan: &PlannedScene, seed: u64, pixels: u32) -> u32 {
-    let homes = homes(plan, InPlace::Copies);
+    let always = |_| [true; 2];
+    let both = [InPlace::Copies, InPlace::Where(&always)];
+    both.map(|in_place| looked_at_in(plan, in_place, seed, pixels))
+        .iter()
+        .sum()
+}
+
+fn looked_at_in(plan: &PlannedScene, in_place: InPlace<'_>, seed: u64, pixels: u32) -> u32 {
+    let homes = homes(plan, in_place);
     let mut walk = Walk {
         plan,
         number: &homes.number,

@@ -103,7 +103,7 @@ impl Found<'_> {
 
     fn edge(&mut self, a: NodeId, b: NodeId, deep: u32) {
         let varies = |id| self.graph.ty(id) == Type::Real && self.graph.constant(id).is_none();
-        if deep > 0 && a != b && varies(a) && varies(b) {
+        if a != b && varies(a) && varies(b) {
             self.edges.push(Edge { deep, ends: [a, b] });
         }
     }

@@ -136,13 +136,30 @@ impl Question<'_> {
     /// # Errors
     /// Where a slice has no bound: why, and where.
     pub fn slices(&self, start: u16) -> Result<u64, Unknown> {
+        let first = self.worst_slice(start)?;
+        let behind = self.slices_behind_ends()?;
+        Ok(behind.into_values().fold(first, u64::max))
+    }
+
+    /// The most cycles from an address to the next of the ends.
+    ///
+    /// # Errors
+    /// As for [`Question::slices`].
+    pub fn worst_slice(&self, from: u16) -> Result<u64, Unknown> {
+        walk::Walk::new(self, FUEL).slice(from)
+    }
+
+    /// The same behind each of the ends, by their addresses.
+    ///
+    /// # Errors
+    /// As for [`Question::slices`].
+    pub fn slices_behind_ends(&self) -> Result<BTreeMap<u16, u64>, Unknown> {
         let mut walk = walk::Walk::new(self, FUEL);
-        let mut longest = walk.slice(start)?;
-        for end in &self.ends {
+        let mut slice = |end: &u16| {
             let begin = flow::Instruction::at(self, *end)?.next;
-            longest = longest.max(walk.slice(begin)?);
-        }
-        Ok(longest)
+            Ok((*end, walk.slice(begin)?))
+        };
+        self.ends.iter().map(&mut slice).collect()
     }
 
     /// The addresses of labels with bounds written behind them, as in

@@ -126,15 +126,16 @@ impl Names {
         let is_safe = |id| in_place(plan, id);
         let homes = homes(plan, InPlace::Where(&is_safe));
         let mut sharing: FxHashMap<(Format, usize), String> = FxHashMap::default();
+        let mut ones: FxHashMap<Place, String> = FxHashMap::default();
         for (place, format) in plan.places() {
             // Copies of each other are one.
-            let one = homes.one.get(&place).and_then(|one| names.homes.get(one));
-            let one = one.cloned();
-            let fresh = || names.fresh(plan.home(place));
+            let one = homes.one.get(&place).copied().unwrap_or(place);
+            let fresh = || names.fresh(plan.home(one));
             let name = match homes.number.get(&place).filter(|_| scarce) {
                 Some(&at) => sharing.entry((format, at)).or_insert_with(fresh).clone(),
-                None => one.unwrap_or_else(fresh),
+                None => ones.get(&one).cloned().unwrap_or_else(fresh),
             };
+            ones.entry(one).or_insert_with(|| name.clone());
             *names.places.entry(name.clone()).or_default() += 1;
             names.homes.insert(place, name);
         }

@@ -61,7 +61,9 @@ fn sharing(plan: &Plan, shapes: Option<&Shapes>) -> FxHashMap<Place, Place> {
     for (place, format) in plan.places() {
         if let Some(&at) = homes.number.get(&place) {
             let key = (format, bytes(place), at);
-            shared.insert(place, *first.entry(key).or_insert(place));
+            let one = homes.one.get(&place).copied().unwrap_or(place);
+            let one = if bytes(one) == bytes(place) { one } else { place };
+            shared.insert(place, *first.entry(key).or_insert(one));
         }
     }
     shared

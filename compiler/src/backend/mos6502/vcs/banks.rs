@@ -270,7 +270,7 @@ fn ask(number: u32, bank: u32) -> Vec<String> {
     vec![
         format!("{}{number}:", super::ASKED),
         "        lda $0284".to_owned(),
-        format!("        cmp #{}", super::ASK),
+        format!("{}16", super::LEAST),
         format!("        bcs vcs_on_{number}"),
         format!("{}{number}:", super::CROSSED),
         format!("        jsr vcs_cross_{bank}"),
@@ -342,9 +342,7 @@ fn head(plan: &Plan, places: &Places, banks: u32) -> Vec<Line> {
             plan.target.name, plan.name
         ),
         String::new(),
-        "; what the timer has for the next slice of the work at least, and for making playfield"
-            .to_owned(),
-        format!("{} = 16", super::ASK),
+        "; what the timer has for making playfield at least, and for the slice behind it".to_owned(),
         format!("{} = 40", super::PUBLISH),
         String::new(),
         "; ---- values: the cartridge's RAM is stored to at $1000, and read 128 bytes behind"

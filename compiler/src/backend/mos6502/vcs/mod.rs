@@ -36,10 +36,11 @@ use slowlight_runtime_6502::tidy::tidy;
 
 pub use kernel::{LINES, Shape};
 
-/// The symbol whose value says how long the timer must have for the next slice of the work, and
-/// that for making playfield.
-pub const ASK: &str = "vcs_ask_least";
-/// See [`ASK`].
+/// Before the number of ticks that the timer must have for the next slice of the work, where it
+/// is asked.
+pub const LEAST: &str = "        cmp #";
+/// The symbol whose value says how many it must have for making playfield and for the slice
+/// behind that.
 pub const PUBLISH: &str = "vcs_publish_least";
 /// Before the numbers of labels at which the timer is asked, and at which the kernel is called
 /// where there is no time.
