@@ -6,7 +6,7 @@
 const THRIFT: [f64; 7] = [0.0001, 0.0004, 0.0008, 0.0011, 0.0015, 0.0025, 0.01];
 
 /// From what part of the cycles on a statement more is not spent on the turns of loops.
-const COUNTED: f64 = 0.0005;
+const COUNTED: f64 = 0.002;
 
 /// How much memory counts beside cycles: more where a program did not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -66,8 +66,10 @@ impl Found<'_> {
                     place,
                     from: Origin::Node(from),
                 } => {
+                    // What a loop begins with is its turns'.
+                    let inside = u32::from(matches!(place, Place::Carried(..)));
                     if let Some(to) = held_by(self.carried, *place) {
-                        self.edge(*from, to, deep);
+                        self.edge(*from, to, deep.max(inside));
                     }
                 }
                 Statement::If { yes, no, .. } => {
@@ -103,7 +105,7 @@ impl Found<'_> {
 
     fn edge(&mut self, a: NodeId, b: NodeId, deep: u32) {
         let varies = |id| self.graph.ty(id) == Type::Real && self.graph.constant(id).is_none();
-        if a != b && varies(a) && varies(b) {
+        if deep > 0 && a != b && varies(a) && varies(b) {
             self.edges.push(Edge { deep, ends: [a, b] });
         }
     }

@@ -1,8 +1,9 @@
 //! Monotone functions after choices: the least of some roots is the root of the least, and what is
 //! chosen of some roots the root of what is chosen. One root is left of many, or none where
-//! nothing but a comparison asks.
+//! nothing but a comparison asks: with another root, or with what no pixel has to square.
 
 use crate::analysis::range::Ranges;
+use crate::analysis::rate::{Rates, rates};
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
 use crate::passes::rewrite::rebuild::rebuild_old;
@@ -18,6 +19,7 @@ pub fn root_of_choice(graph: &Graph, ranges: &Ranges, _: &Runtime) -> Option<Gra
         graph,
         ranges,
         squares: vec![None; graph.nodes.len()],
+        rates: rates(graph),
     };
     let mut done = false;
     let next = rebuild_old(graph, &mut |builder, made, id, span| {
@@ -36,16 +38,23 @@ struct Site<'g> {
     ranges: &'g Ranges,
     /// Of old values that are roots, what of.
     squares: Vec<Option<NodeId>>,
+    rates: Rates,
 }
 
 impl Site<'_> {
-    /// What a value is the root of; a constant is one if another is.
-    fn square(&self, b: &mut Builder, id: NodeId, span: Span) -> Option<NodeId> {
-        match self.graph.constant(id) {
-            Some(Value::Real(real)) if (0.0..=MOST).contains(&real) => {
+    /// What a value is the root of; what no pixel computes is one if another is.
+    fn square(&self, b: &mut Builder, new: New<'_>, id: NodeId, span: Span) -> Option<NodeId> {
+        match (self.graph.constant(id), self.squares[id.0 as usize]) {
+            (Some(Value::Real(real)), _) if (0.0..=MOST).contains(&real) => {
                 Some(b.constant(Value::Real(real * real), span))
             }
-            _ => self.squares[id.0 as usize],
+            (None, None) => {
+                let range = self.ranges.result.get(id.0 as usize)?;
+                let fits = self.rates.is_still(id) && range.within(0.0, MOST);
+                let now = new(id).filter(|_| fits)?;
+                Some(b.apply(Op::Mul, &[now, now], span))
+            }
+            (_, square) => square,
         }
     }
 
@@ -65,8 +74,8 @@ impl Site<'_> {
         if sides[0] == sides[1] || sides.iter().all(|id| self.squares[id.0 as usize].is_none()) {
             return None;
         }
-        let one = self.square(b, sides[0], span)?;
-        let other = self.square(b, sides[1], span)?;
+        let one = self.square(b, new, sides[0], span)?;
+        let other = self.square(b, new, sides[1], span)?;
         let square = match node {
             Node::Select { cond, .. } => b.select(new(cond)?, one, other, span),
             Node::Apply(op @ (Op::Less | Op::LessEqual), _) => {

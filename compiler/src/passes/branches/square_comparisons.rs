@@ -2,14 +2,13 @@
 //!
 //! sqrt(u) < c is u < c² where c is not below 0, and so with the other comparisons; two roots
 //! compare as what they are of. |sqrt(u) - c| < k is u between two squares. A root takes as
-//! long as several products, and c² is mostly known: c is a constant, or a row's. Then the root is
-//! no longer asked for where it is read on one side of the comparison only.
+//! long as several products, and c² is mostly known: c is a constant, or a row's. Roots that are
+//! read by others, too, are [`crate::passes::algebra::root_of_choice`]'s, where that pays.
 //!
 //! Of what a root is of, its value below 0 counts as 0; where c may be 0 the ranges must prove
 //! that it is none.
 
 use crate::analysis::range::Ranges;
-use crate::analysis::rate::{Rates, rates};
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
 use crate::passes::rewrite::rebuild::rebuild_old;
@@ -25,7 +24,6 @@ pub fn square_comparisons(graph: &Graph, ranges: &Ranges) -> Option<Graph> {
         graph,
         ranges,
         uses: uses(graph),
-        rates: rates(graph),
     };
     let alone = site.compared_alone();
     let mut done = false;
@@ -33,7 +31,7 @@ pub fn square_comparisons(graph: &Graph, ranges: &Ranges) -> Option<Graph> {
         let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
         let test = site.test(id)?;
         let mut roots = test.roots().into_iter().flatten();
-        if !site.is_free(&test) && !roots.all(|root| alone[root.0 as usize]) {
+        if !roots.all(|root| alone[root.0 as usize]) {
             return None;
         }
         done = true;
@@ -82,7 +80,6 @@ struct Site<'g> {
     graph: &'g Graph,
     ranges: &'g Ranges,
     uses: Vec<u32>,
-    rates: Rates,
 }
 
 impl Site<'_> {
@@ -97,11 +94,6 @@ impl Site<'_> {
         let is_root = |id: NodeId| matches!(self.graph.node(id), Node::Apply(Op::Sqrt, _));
         let alone = |id: NodeId| is_root(id) && left[id.0 as usize] == 0;
         self.graph.ids().map(alone).collect()
-    }
-
-    /// Whether the square takes no pixel any time.
-    fn is_free(&self, test: &Test) -> bool {
-        matches!(test.with, With::Value(value) if self.rates.is_still(value))
     }
 
     fn range(&self, id: NodeId) -> Range {
@@ -278,7 +270,7 @@ mod tests {
             // What it is compared with may be below 0.
             ("ink(if d < s then 1 else 0)", 1),
             ("ink(if abs(d - 1) < r then 1 else 0)", 1),
-            // It is read, too: that it is compared is no reason to work it out.
+            // It is read, too.
             ("threshold(if d < r then d / 10 else 0, bayer(2)[x mod 2, y mod 2])", 1),
         ] {
             assert_eq!(left(ink), roots, "{ink}");
