@@ -128,10 +128,16 @@ fn proof(document: &Document) -> Result<Proof, String> {
     let each = question.slices_behind_ends().map_err(told)?;
     let most = |head: &str| {
         let all = labels(head).into_iter();
-        all.filter_map(|at| each.get(&at)).copied().max().unwrap_or(0)
+        all.filter_map(|at| each.get(&at))
+            .copied()
+            .max()
+            .unwrap_or(0)
     };
     let first = question.worst_slice(at(WORK)).map_err(told)?;
-    let asked = assembly.symbols.iter().filter(|(name, _)| name.starts_with(ASKED));
+    let asked = assembly
+        .symbols
+        .iter()
+        .filter(|(name, _)| name.starts_with(ASKED));
     let behind = asked.filter_map(|(name, at)| {
         let cycles = each.get(&u16::try_from(*at).ok()?)?;
         Some((name.clone(), *cycles))

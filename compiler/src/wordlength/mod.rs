@@ -195,24 +195,17 @@ impl Points {
 struct Rooms(Vec<(u8, Vec<i8>)>);
 
 impl Rooms {
-    fn new(
-        graph: &Graph,
-        ranges: &Ranges,
-        (widths, shared): (&Widths, &[Option<i8>]),
-    ) -> Rooms {
+    fn new(graph: &Graph, ranges: &Ranges, (widths, shared): (&Widths, &[Option<i8>])) -> Rooms {
         let greatest = |id: NodeId| {
             let range = ranges.result[id.0 as usize];
             let shared = shared.get(id.0 as usize).copied().flatten();
-            let shared = shared.map(|frac| {
-                scale::most(widths.value(id)) as f64 * (-f64::from(frac)).exp2()
-            });
+            let shared =
+                shared.map(|frac| scale::most(widths.value(id)) as f64 * (-f64::from(frac)).exp2());
             match (graph.node(id), graph.constant(id)) {
                 (_, Some(value)) => value.real().abs().min(range.magnitude()),
                 (Node::Received, _) => RECEIVED,
                 // Where values share a point, entries are cut to it.
-                (Node::Lookup { table, .. }, _) => {
-                    shared.unwrap_or_else(|| greatest(graph, table))
-                }
+                (Node::Lookup { table, .. }, _) => shared.unwrap_or_else(|| greatest(graph, table)),
                 _ => range.magnitude(),
             }
         };

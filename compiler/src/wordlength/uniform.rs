@@ -173,7 +173,8 @@ pub(super) fn shared(
         let [one, other] = [to, from].map(|k| groups[k].frac);
         let finest = groups[to].finest.min(groups[from].finest);
         let joined = [&groups[to].members[..], &groups[from].members[..]].concat();
-        let losses = (one.min(other)..=one.max(other).min(finest)).map(|frac| (loss(&joined, frac), frac));
+        let losses =
+            (one.min(other)..=one.max(other).min(finest)).map(|frac| (loss(&joined, frac), frac));
         let best = losses.min_by(|a, b| a.0.total_cmp(&b.0));
         let Some((_, frac)) = best.filter(|(loss, _)| *loss <= HARDLY * pixels) else {
             continue;

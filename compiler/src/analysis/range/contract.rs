@@ -115,8 +115,16 @@ impl Narrowing<'_> {
         for ((id, size), found) in at.into_iter().zip([table.width, table.height]).zip(bounds) {
             // Who is beyond an end reads what stands there.
             let last = f64::from(size) - 1.0;
-            let lo = if found.lo == 0.0 { f64::NEG_INFINITY } else { found.lo };
-            let hi = if found.hi == last { f64::INFINITY } else { found.hi };
+            let lo = if found.lo == 0.0 {
+                f64::NEG_INFINITY
+            } else {
+                found.lo
+            };
+            let hi = if found.hi == last {
+                f64::INFINITY
+            } else {
+                found.hi
+            };
             self.narrow(id, Range::new(lo, hi), false);
         }
     }

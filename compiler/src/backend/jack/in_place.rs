@@ -40,9 +40,18 @@ mod tests {
 
     #[test]
     fn what_is_read_behind_the_result_is_found() {
-        assert!(is_read_first("let {r} = {0} + {1};\nlet {r+} = {0+} = {1+};", 0));
-        assert!(!is_read_first("let {r} = {0};\nif ({0} < {1}) {\nlet {r} = {1};\n}", 0));
-        assert!(!is_read_first("let {r+} = {1+};\nlet {r} = {0};\nlet {r+} = {0+};", 0));
+        assert!(is_read_first(
+            "let {r} = {0} + {1};\nlet {r+} = {0+} = {1+};",
+            0
+        ));
+        assert!(!is_read_first(
+            "let {r} = {0};\nif ({0} < {1}) {\nlet {r} = {1};\n}",
+            0
+        ));
+        assert!(!is_read_first(
+            "let {r+} = {1+};\nlet {r} = {0};\nlet {r+} = {0+};",
+            0
+        ));
         assert!(!is_read_first("do {r}.add({0}, {1})", 0));
     }
 }

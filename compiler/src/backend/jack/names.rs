@@ -163,7 +163,10 @@ impl Names {
 
     /// Whether no other place shares a place's variable.
     pub fn is_alone(&self, place: Place) -> bool {
-        let sharing = self.homes.get(&place).and_then(|name| self.places.get(name));
+        let sharing = self
+            .homes
+            .get(&place)
+            .and_then(|name| self.places.get(name));
         sharing == Some(&1)
     }
 

@@ -62,7 +62,11 @@ fn sharing(plan: &Plan, shapes: Option<&Shapes>) -> FxHashMap<Place, Place> {
         if let Some(&at) = homes.number.get(&place) {
             let key = (format, bytes(place), at);
             let one = homes.one.get(&place).copied().unwrap_or(place);
-            let one = if bytes(one) == bytes(place) { one } else { place };
+            let one = if bytes(one) == bytes(place) {
+                one
+            } else {
+                place
+            };
             shared.insert(place, *first.entry(key).or_insert(one));
         }
     }

@@ -123,12 +123,10 @@ impl Site<'_> {
         let of = self.root(root)?;
         let from_0 = self.range(of).lo >= 0.0;
         let with = match self.root(other) {
-            Some(that) if from_0 && self.range(that).lo >= 0.0 && root != other => {
-                With::Root {
-                    root: other,
-                    of: that,
-                }
-            }
+            Some(that) if from_0 && self.range(that).lo >= 0.0 && root != other => With::Root {
+                root: other,
+                of: that,
+            },
             Some(_) => return None,
             None => {
                 let range = self.range(other);
@@ -225,7 +223,10 @@ mod tests {
     fn roots(graph: &Graph) -> usize {
         let reached = graph.reached();
         let root = |id: &NodeId| matches!(graph.node(*id), Node::Apply(Op::Sqrt, _));
-        graph.ids().filter(|id| reached[id.0 as usize] && root(id)).count()
+        graph
+            .ids()
+            .filter(|id| reached[id.0 as usize] && root(id))
+            .count()
     }
 
     /// How many roots are left of those that a picture has, whose pixels stay as they are.
@@ -259,7 +260,14 @@ mod tests {
 
     #[test]
     fn roots_that_are_only_compared_are_none() {
-        for test in ["d < 5.2", "d <= r", "5.2 < d", "r <= d", "d < e", "abs(d - 5.2) < 0.7"] {
+        for test in [
+            "d < 5.2",
+            "d <= r",
+            "5.2 < d",
+            "r <= d",
+            "d < e",
+            "abs(d - 5.2) < 0.7",
+        ] {
             assert_eq!(left(&format!("ink(if {test} then 1 else 0)")), 0, "{test}");
         }
     }
@@ -271,7 +279,10 @@ mod tests {
             ("ink(if d < s then 1 else 0)", 1),
             ("ink(if abs(d - 1) < r then 1 else 0)", 1),
             // It is read, too.
-            ("threshold(if d < r then d / 10 else 0, bayer(2)[x mod 2, y mod 2])", 1),
+            (
+                "threshold(if d < r then d / 10 else 0, bayer(2)[x mod 2, y mod 2])",
+                1,
+            ),
         ] {
             assert_eq!(left(ink), roots, "{ink}");
         }

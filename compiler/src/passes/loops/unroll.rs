@@ -25,7 +25,11 @@ pub fn unroll(graph: &Graph) -> Option<Graph> {
     let rates = rates(graph);
     let fits = |(of, going): (LoopId, usize)| {
         let body = body(graph, &rates, of);
-        let own = [Dependence::Frame, Dependence::Loop(of), Dependence::Last(of)];
+        let own = [
+            Dependence::Frame,
+            Dependence::Loop(of),
+            Dependence::Last(of),
+        ];
         let again = |id: &&NodeId| rates.rate(**id).iter().any(|d| !own.contains(d));
         let times = going + 1;
         let short = going <= TURNS

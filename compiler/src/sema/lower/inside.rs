@@ -103,9 +103,8 @@ impl Numbered {
             let mut all = strides.clone();
             all.find_map(|stride| numbered(stride, mask).map(|numbers| (stride, numbers)))
         };
-        let ends = |numbers: &FxHashMap<i32, i32>| {
-            Some((*numbers.keys().min()?, *numbers.keys().max()?))
-        };
+        let ends =
+            |numbers: &FxHashMap<i32, i32>| Some((*numbers.keys().min()?, *numbers.keys().max()?));
         let (mut stride, mut numbers) = by(-1)?;
         let (mut least, mut most) = ends(&numbers)?;
         let mut mask = -1;
@@ -204,7 +203,7 @@ impl<'a> Lower<'a> {
         let range = enclosure.of([slowlight_routine::Range::point(0.0); 3]);
         let (lo, hi) = (range.lo, range.hi);
         let few = enclosure.left() > 0 && hi - lo < CELLS as f64;
-        (few && lo.abs().max(hi.abs()) < CELLS as f64).then(|| lo as i32..=hi as i32)
+        (few && lo.abs().max(hi.abs()) < CELLS as f64).then_some(lo as i32..=hi as i32)
     }
 
     /// An int that is known to lie there, which formats' roundings are not to change.

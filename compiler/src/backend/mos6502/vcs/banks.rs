@@ -342,7 +342,8 @@ fn head(plan: &Plan, places: &Places, banks: u32) -> Vec<Line> {
             plan.target.name, plan.name
         ),
         String::new(),
-        "; what the timer has for making playfield at least, and for the slice behind it".to_owned(),
+        "; what the timer has for making playfield at least, and for the slice behind it"
+            .to_owned(),
         format!("{} = 40", super::PUBLISH),
         String::new(),
         "; ---- values: the cartridge's RAM is stored to at $1000, and read 128 bytes behind"
