@@ -44,7 +44,7 @@ use crate::analysis::range::{Ranges, Slack, ranges};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use rustc_hash::{FxHashMap, FxHashSet};
-use scales::{cap, only_cut, power, wanted};
+use scales::{cap, greatest, only_cut, power, wanted};
 use slowlight_routine::scale::{self, Scales, finest, fitting};
 use slowlight_routine::{Format, Op, Range, Routine, Runtime, Type};
 
@@ -232,26 +232,6 @@ pub fn divided(runtime: &Runtime, own: i8) -> Option<&'static Routine> {
         |r: &&Routine| r.op == Op::Div && (r.domain)(&[Range::ALL, Range::ALL, number], Range::ALL);
     runtime.routines.iter().find(fits)
 }
-
-/// The greatest magnitude in a table that is to have room. What is beyond all ints, a
-/// threshold that nothing reaches, saturates above the others.
-fn greatest(graph: &Graph, table: TableId) -> f64 {
-    let table = graph.tables.get(table.0 as usize);
-    let entries = table.iter().flat_map(|t| &t.entries);
-    let sizes: Vec<f64> = entries.map(|e| e.value().real().abs()).collect();
-    let most = |sizes: &mut dyn Iterator<Item = &f64>| sizes.fold(0.0, |a, b| f64::max(a, *b));
-    let all = most(&mut sizes.iter());
-    let near = most(&mut sizes.iter().filter(|size| **size < BEYOND));
-    match all < BEYOND || near == 0.0 {
-        true => all,
-        false => ABOVE * near,
-    }
-}
-
-/// From where on entries of a table are beyond all ints, and how far above the others
-/// they are then.
-const BEYOND: f64 = 32768.0;
-const ABOVE: f64 = 3.0;
 
 /// Leaves what is one of its operands, or the sum of them, no more bits than the finest of
 /// these has; and a power of two of another value, of which only whole numbers are read, those

@@ -70,6 +70,26 @@ fn long(bits: u8) -> i8 {
     bits as i8 - 1
 }
 
+/// The greatest magnitude in a table that is to have room. What is beyond all ints, a
+/// threshold that nothing reaches, saturates above the others.
+pub(super) fn greatest(graph: &Graph, table: TableId) -> f64 {
+    let table = graph.tables.get(table.0 as usize);
+    let entries = table.iter().flat_map(|t| &t.entries);
+    let sizes: Vec<f64> = entries.map(|e| e.value().real().abs()).collect();
+    let most = |sizes: &mut dyn Iterator<Item = &f64>| sizes.fold(0.0, |a, b| f64::max(a, *b));
+    let all = most(&mut sizes.iter());
+    let near = most(&mut sizes.iter().filter(|size| **size < BEYOND));
+    match all < BEYOND || near == 0.0 {
+        true => all,
+        false => ABOVE * near,
+    }
+}
+
+/// From where on entries of a table are beyond all ints, and how far above the others
+/// they are then.
+const BEYOND: f64 = 32768.0;
+const ABOVE: f64 = 3.0;
+
 /// By how many bits a product may be shorter than that all the same. Where its range leaves
 /// room for them it has as many more fraction bits than its greatest operands' last places
 /// count for: smaller ones count for less, a square's most of all.

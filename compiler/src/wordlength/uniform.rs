@@ -2,8 +2,8 @@
 //! Systems II 47(9), 2000): values that loops copy, add and compare at every turn have one point,
 //! where that costs the picture hardly anything, so that nothing is shifted there.
 
-use super::greatest;
 use super::histogram::Seen;
+use super::scales::greatest;
 use crate::analysis::carried::{Readers, held_by, readers};
 use crate::analysis::points::widths::Widths;
 use crate::ir::graph::*;
