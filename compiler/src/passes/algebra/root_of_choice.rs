@@ -11,7 +11,7 @@ use crate::source::Span;
 use slowlight_routine::{Op, Runtime, Type, Value};
 
 /// Squares of what is greater are left to roots: formats of few bits have no room for them.
-const MOST: f64 = 1000.0;
+pub const MOST: f64 = 1000.0;
 
 /// The graph with roots behind choices; nothing where none is chosen.
 pub fn root_of_choice(graph: &Graph, ranges: &Ranges, _: &Runtime) -> Option<Graph> {

@@ -11,12 +11,10 @@
 use crate::analysis::range::Ranges;
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
+use crate::passes::algebra::root_of_choice::MOST;
 use crate::passes::rewrite::rebuild::rebuild_old;
 use crate::source::Span;
 use slowlight_routine::{Op, Range, Value};
-
-/// Squares of what is greater are left to roots: formats of few bits have no room for them.
-const MOST: f64 = 1000.0;
 
 /// The graph with squares compared; nothing where no root is compared alone.
 pub fn square_comparisons(graph: &Graph, ranges: &Ranges) -> Option<Graph> {
