@@ -65,11 +65,18 @@ pub struct Chosen {
     pub why: Option<Why>,
 }
 
+/// Where a BASIC program begins that has a disc system's memory.
+const BELOW_DISC: &str = "it begins at PAGE &E00 and has the disc system's memory: its disc moves \
+                          it there (--page 1900 makes a slower one that begins there)";
+
 impl Chosen {
     /// The plan; why it is in its format is said on standard error.
     pub fn said(self) -> PlannedScene {
         if let Some(why) = self.why {
             eprintln!("note: {}", why.text(&self.plan));
+        }
+        if self.plan.moved {
+            eprintln!("note: {BELOW_DISC}");
         }
         self.plan
     }

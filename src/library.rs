@@ -5,7 +5,7 @@ use slowlight_compiler::syntax::parse;
 use slowlight_compiler::syntax::tree::{Binding, ExprKind, File, Item, ItemKind};
 
 /// Files that only the compiler calls.
-const INNER: [&str; 2] = ["solve.scn", "instances.scn"];
+const INNER: [&str; 3] = ["solve.scn", "instances.scn", "inside.scn"];
 
 /// A file whose functions are for its shapes' own use.
 const SHAPES: &str = "shapes.scn";

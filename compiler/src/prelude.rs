@@ -24,4 +24,5 @@ pub const PRELUDE: &[Text] = texts! {
     "forms.scn"
     "stable.scn"
     "input.scn"
+    "inside.scn"
 };

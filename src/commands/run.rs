@@ -204,10 +204,13 @@ fn prepare(args: &Args, scene: &Scene) -> Outcome<(PlannedScene, program::Values
         let out = "leave --rows out, or change its first and last row";
         return Err(Failure::Usage(format!("{what} {first}..{last}; {out}")));
     }
-    let screen = args.screen.in_format_of(plan.target);
+    let mut screen = args.screen.in_format_of(plan.target);
+    if plan.moved {
+        screen.page = plan.page;
+    }
     let mut plan = screen.plan(scene, args.target, &set)?;
     plan.rows = rows;
-    Ok((plan, set, machine.load(&sources)?))
+    Ok((plan, set, machine.at_page(screen.page).load(&sources)?))
 }
 
 /// The plan that a program was made by: it may have been built in another format than is chosen

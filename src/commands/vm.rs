@@ -212,6 +212,20 @@ fn write_image(path: &Path, loaded: &Loaded) -> Outcome<()> {
 /// Options that the machine, or what it runs, does not have.
 ///
 /// # Errors
+/// Bytes of a line of BASIC at most.
+const LINE: usize = 255;
+
+/// Where a BASIC program of ours begins, as the remark on its first line says.
+fn said_page(args: &Args, program: &File) -> Option<u16> {
+    let basic = args.machine == Kind::Bbc && args.dialect.unwrap_or(Basic::Micro) == Basic::Micro;
+    let first = program.bytes.get(..program.bytes.len().min(LINE))?;
+    let text = String::from_utf8_lossy(first);
+    let (line, behind) = text.split_once(" at PAGE &")?;
+    let digits: String = behind.chars().take_while(char::is_ascii_hexdigit).collect();
+    let ours = basic && line.contains("by slowlight for");
+    u16::from_str_radix(&digits, 16).ok().filter(|_| ours)
+}
+
 /// Where one is given: whose it is, and how it is used there.
 fn check_options(args: &Args) -> Outcome<()> {
     let basic = args.machine == Kind::Bbc;
@@ -309,7 +323,8 @@ pub fn run(args: &Args) -> Outcome<()> {
             bytes: files::read(&path)?,
         });
     }
-    let mut loaded = machine.at_page(args.page).load(&program)?;
+    let page = args.page.or_else(|| said_page(args, program.first()?));
+    let mut loaded = machine.at_page(page).load(&program)?;
     for warning in loaded.warnings() {
         eprintln!("warning: {warning}");
     }

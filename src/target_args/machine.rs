@@ -47,7 +47,10 @@ impl ScreenArgs {
         };
         match (&plan, low.plan_as_asked(scene, target, set)) {
             (Ok(high), Ok(low)) if !worth(high, &low) => plan,
-            (_, Ok(low)) => Ok(low),
+            (_, Ok(mut low)) => {
+                low.moved = true;
+                Ok(low)
+            }
             _ => plan,
         }
     }

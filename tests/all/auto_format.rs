@@ -277,10 +277,10 @@ fn what_another_mode_has_room_for_is_looked_at() {
         let all = [&rows[..], more].concat();
         ran(dir.path(), "torus.scn", "6502:bbc", &all)
     };
-    let (usual, exact) = (run(&[]), run(&["--format", "fixed16.16"]));
+    let (usual, exact) = (run(&[]), run(&["--format", "real40"]));
     assert_eq!(usual["format"], "fixed16");
     assert!(wrong(&usual) <= 0.01, "{usual}");
-    // Four bytes a number fit where less of the picture is seen.
+    // Five bytes a number fit where less of the picture is seen.
     assert_ne!(usual["mode"], exact["mode"]);
     let [usual, exact] = [&usual, &exact].map(|run| run["cycles_per_pixel"].as_f64());
     assert!(usual.map(|own| 3.0 * own) < exact, "{usual:?} {exact:?}");

@@ -141,13 +141,13 @@ pub struct Plan {
     pub copies: Copies,
     /// Whether remarks beside the first line are left out, where memory is short.
     pub brief: bool,
-    /// Whether it is written short where that hardly costs time, since it does not fit
-    /// otherwise.
+    /// Whether it is written short where that hardly costs time: it does not fit otherwise.
     pub scant: bool,
     /// Whether a 6502's program may have the opcodes that its data sheet leaves out.
     pub undocumented: bool,
-    /// Where programs begin in a BBC Micro's memory, where that was asked for.
+    /// Where a BBC Micro's program begins, if not where the disc system ends; whether unasked.
     pub page: Option<u16>,
+    pub moved: bool,
     /// The values.
     pub graph: Graph,
     /// When each is computed.

@@ -85,6 +85,7 @@ pub(super) fn assemble(
         scant: false,
         undocumented: false,
         page: None,
+        moved: false,
         ranges: ranges_now,
         params,
         routines,

@@ -60,6 +60,9 @@ fn forms(origin: &Graph, cx: &Context, budget: SizeBudget) -> Vec<Graph> {
             let tables =
                 |graph| cx.always(Pass::InductionTables, || induction_tables(graph, worth));
             all.extend(both.filter_map(tables));
+            // What is collected has less in each turn.
+            let collected = collected.and_then(|graph| cx.always(Pass::Unroll, || unroll(&graph)));
+            all.extend(collected.map(folded));
             all.extend(unrolled);
         }
         all.push(base);
