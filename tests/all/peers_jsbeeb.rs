@@ -250,12 +250,18 @@ fn compared(scene: &str, mode: u32, options: &[&str]) -> (usize, f64) {
     let mode_option = mode.to_string();
     let written = build(scene, &[&["--mode", &mode_option], options].concat());
     let dump = json!([layout(mode).0, 0x8000]);
+    // Where it begins, as its first line says.
+    let first = written.text.lines().next().unwrap_or_default();
+    let page = match first.contains(" at PAGE &E00") {
+        true => 0xe00,
+        false => Config::default().page,
+    };
     let results = jsbeeb(&[
-        json!({"typed": written.text, "dump": dump}),
-        json!({"tokenised": hex(&written.tokens), "dump": dump}),
+        json!({"typed": written.text, "page": page, "dump": dump}),
+        json!({"tokenised": hex(&written.tokens), "page": page, "dump": dump}),
         json!({"typed": EMPTY}),
     ]);
-    let run = ours(&written.text);
+    let run = ours_at(page, &written.text);
     let empty = (
         ours(EMPTY).cycles,
         results[2]["cycles"].as_u64().expect("cycles"),
