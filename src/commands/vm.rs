@@ -223,7 +223,7 @@ fn said_page(args: &Args, program: &File) -> Option<u16> {
     let (line, behind) = text.split_once(" at PAGE &")?;
     let digits: String = behind.chars().take_while(char::is_ascii_hexdigit).collect();
     let ours = basic && line.contains("by slowlight for");
-    u16::from_str_radix(&digits, 16).ok().filter(|_| ours)
+    page(&digits).ok().filter(|_| ours)
 }
 
 /// Where one is given: whose it is, and how it is used there.
