@@ -27,6 +27,7 @@
 mod candidates;
 mod mixed;
 mod said;
+mod tabulated;
 
 use crate::estimate;
 use crate::failure::{Failure, Outcome};
@@ -39,11 +40,10 @@ use candidates::{
 };
 use said::Others;
 pub use said::Why;
-use slowlight_compiler::passes::simplify::function_tables::has_function_tables;
 use slowlight_compiler::planner::PlannedScene;
-use slowlight_compiler::planner::pipeline::Pass;
 use slowlight_compiler::targets::{Target, formats};
 use slowlight_routine::{Format, Op, Runtime};
+use tabulated::Fewer;
 
 /// How many formats are planned in earnest.
 const TRIES: usize = 4;
@@ -63,6 +63,9 @@ pub struct Chosen {
     pub plan: PlannedScene,
     /// Why that one; nothing where it was asked for, or there is one only.
     pub why: Option<Why>,
+    /// The part of the pixels that are expected to be wrong by tables of functions, where its
+    /// format is exact but for these.
+    pub tabled: Option<f64>,
 }
 
 /// Where a BASIC program begins that has a disc system's memory.
@@ -74,6 +77,9 @@ impl Chosen {
     pub fn said(self) -> PlannedScene {
         if let Some(why) = self.why {
             eprintln!("note: {}", why.text(&self.plan));
+        }
+        if let Some(wrong) = self.tabled {
+            eprintln!("note: {}", tabulated::text(wrong));
         }
         if self.plan.moved {
             eprintln!("note: {BELOW_DISC}");
@@ -115,7 +121,12 @@ pub fn plan(screen: &ScreenArgs, scene: &Scene, target: &'static Target) -> Outc
             if cut && screen.format.is_some() {
                 say_cut(plan.target);
             }
-            Ok(Chosen { plan, why: None })
+            let (plan, tabled) = tabulated::within_goal(screen, scene, plan)?;
+            Ok(Chosen {
+                plan,
+                why: None,
+                tabled,
+            })
         }
     }
 }
@@ -275,19 +286,15 @@ fn quickest(
         let (mut whole, mut expected, mut within) = seen(&plan);
         // Functions in tables are not as exact as the format is.
         let mut slower = false;
-        let tabled = plan.pipeline().count(Pass::FunctionTables).kept > 0;
-        if !within && tabled && has_function_tables(&plan.graph) {
-            match (format.without(Pass::FunctionTables)).plan(scene, target, &[]) {
-                Err(Failure::TooLarge(_) | Failure::Scene(_)) => {}
-                other => {
-                    let other = other?;
-                    let looked = seen(&other);
-                    if looked.2 || looked.1 < expected {
-                        slower = true;
-                        ((whole, expected, within), plan) = (looked, other);
-                    }
-                }
+        let mut fewer = Fewer::new(&format, scene, target);
+        let mut last = plan.clone();
+        while !within && let Some(other) = fewer.after(&last)? {
+            let looked = seen(&other);
+            if looked.2 || looked.1 < expected {
+                slower = true;
+                ((whole, expected, within), plan) = (looked, other.clone());
             }
+            last = other;
         }
         others.seen.push(candidate.seen(expected));
         let why = |expected| Why {
@@ -309,7 +316,11 @@ fn quickest(
                 others,
                 ..why(expected)
             });
-            return Ok(Some(Chosen { plan, why }));
+            return Ok(Some(Chosen {
+                plan,
+                why,
+                tabled: None,
+            }));
         }
         let now = Kept {
             cycles: match within {
@@ -326,7 +337,14 @@ fn quickest(
         };
         if better {
             let why = Some(why(expected));
-            best = Some((Chosen { plan, why }, expected));
+            best = Some((
+                Chosen {
+                    plan,
+                    why,
+                    tabled: None,
+                },
+                expected,
+            ));
             kept = within.then_some(now).or(kept);
         }
     }

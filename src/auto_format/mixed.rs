@@ -57,7 +57,11 @@ pub(super) fn mixed(screen: &ScreenArgs, scene: &Scene, chosen: Chosen) -> Outco
                 expected: share.expected,
                 ..why.clone()
             });
-            Ok(Chosen { plan, why })
+            Ok(Chosen {
+                plan,
+                why,
+                tabled: None,
+            })
         }
         _ => Ok(chosen),
     }

@@ -6,6 +6,8 @@
 //! them, element by element, with a sum, a product and a square each; decimals
 //! for every entry would take several times as much memory.
 //!
+//! So is a period of a sine: that of the entry's number, moved and scaled.
+//!
 //! The entries are then what the machine's own operations give, which differs
 //! from the nearest numbers in the last places: by 2^-22 of an entry at most, or
 //! the table is not made so. The model has the same bits ([`Made::bits`]).
@@ -13,6 +15,7 @@
 use crate::analysis::range::ENTRIES;
 use crate::ir::graph::*;
 use slowlight_routine::{Bits, Op, Runtime, Type, Value};
+use std::f64::consts::TAU;
 
 /// What an entry is worked out from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,11 +24,13 @@ pub enum From {
     Seed,
     /// The entry at the same place of another table.
     Table(TableId),
+    /// The entry's own number.
+    Index,
 }
 
-/// How an entry is worked out: (from + moved) * scale; where there is `more`, that
-/// squared with its sign, and `more` added; all of it squared with its sign if
-/// `squared`.
+/// How an entry is worked out: (from + moved) * scale; a function of that, if there is one; where
+/// there is `more`, that squared with its sign, and `more` added; all of it squared with its sign
+/// if `squared`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recipe {
     /// From what.
@@ -34,11 +39,25 @@ pub struct Recipe {
     pub moved: f64,
     /// By what the sum is multiplied.
     pub scale: f64,
+    /// A function of the product.
+    pub function: Option<Function>,
     /// What is added to the product's square.
     pub more: Option<f64>,
     /// Whether the result is squared.
     pub squared: bool,
 }
+
+/// A function of one real, and what it is multiplied by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Function {
+    /// Which.
+    pub op: Op,
+    /// By what its values are multiplied.
+    pub times: f64,
+}
+
+/// How many entries a period has at least.
+const PERIOD: u32 = 16;
 
 /// A table as the program has it.
 #[derive(Clone, Debug, Default)]
@@ -68,6 +87,9 @@ struct Site<'g> {
 impl Site<'_> {
     fn made(&self, table: &Table, before: &[Made]) -> Made {
         let derives = self.runtime.derives && table.ty == Type::Real;
+        if derives && let Some(made) = self.period(table) {
+            return made;
+        }
         let same = |other: &&Table| {
             (other.width, other.height, &other.seed) == (table.width, table.height, &table.seed)
         };
@@ -92,6 +114,32 @@ impl Site<'_> {
             recipe: None,
             bits: table.entries.iter().map(|e| self.bits(e.value())).collect(),
         }
+    }
+
+    /// A table that is a period of a sine, if it is one: the first two entries tell which.
+    fn period(&self, table: &Table) -> Option<Made> {
+        if table.height > 1 || table.width < PERIOD {
+            return None;
+        }
+        let scale = TAU / f64::from(table.width);
+        let entry = |k: usize| table.entries.get(k).map(|e| e.value().real());
+        let (first, second) = (entry(0)?, entry(1)?);
+        let beside = (second - first * scale.cos()) / scale.sin();
+        let function = Function {
+            op: Op::Sin,
+            times: tidy(first.hypot(beside)),
+        };
+        let recipe = Recipe {
+            from: From::Index,
+            moved: tidy(first.atan2(beside) / scale),
+            scale,
+            function: Some(function),
+            more: None,
+            squared: false,
+        };
+        let numbers = (0..table.width as i32).map(|n| self.bits(Value::Real(f64::from(n))));
+        let numbers: Vec<Bits> = numbers.collect();
+        self.by(recipe, &numbers, table)
     }
 
     /// A table as an image of a source, if it is one: of a line in it, or of a
@@ -127,14 +175,22 @@ impl Site<'_> {
             from,
             moved: tidy(moved),
             scale: tidy(scale),
+            function: None,
             more: more.map(tidy),
             squared,
         };
+        self.by(recipe, source, table)
+    }
+
+    /// A table by a recipe, where its entries come near enough.
+    fn by(&self, recipe: Recipe, source: &[Bits], table: &Table) -> Option<Made> {
+        // What is left of a sine near its zeros is as exact as the sine is.
+        let least = recipe.function.map_or(0.0, |function| function.times.abs());
         let bits: Option<Vec<Bits>> = (source.iter().zip(&table.entries))
             .map(|(source, entry)| {
                 let bits = self.cooked(recipe, *source)?;
                 let entry = entry.value().real();
-                let near = (self.real(bits) - entry).abs() <= ENTRIES * entry.abs();
+                let near = (self.real(bits) - entry).abs() <= ENTRIES * entry.abs().max(least);
                 near.then_some(bits)
             })
             .collect();
@@ -150,9 +206,13 @@ impl Site<'_> {
             0.0 => source,
             by => self.apply(Op::Add, &[source, self.bits(Value::Real(by))])?,
         };
-        let scaled = match recipe.scale {
-            1.0 => moved,
-            by => self.apply(Op::Mul, &[moved, self.bits(Value::Real(by))])?,
+        let scaled = self.times(moved, recipe.scale)?;
+        let scaled = match recipe.function {
+            None => scaled,
+            Some(Function { op, times }) => {
+                let value = self.apply(op, &[scaled])?;
+                self.times(value, times)?
+            }
         };
         let bent = match recipe.more {
             None => scaled,
@@ -165,6 +225,14 @@ impl Site<'_> {
         match recipe.squared {
             true => self.square(bent),
             false => Some(bent),
+        }
+    }
+
+    /// A product with a number.
+    fn times(&self, of: Bits, by: f64) -> Option<Bits> {
+        match by {
+            1.0 => Some(of),
+            by => self.apply(Op::Mul, &[of, self.bits(Value::Real(by))]),
         }
     }
 

@@ -14,6 +14,7 @@ use crate::passes::loops::polynomials::polynomials;
 use crate::passes::loops::trip_counts::trip_counts;
 use crate::passes::simplify::constant_factors::constant_factors;
 use crate::passes::simplify::function_tables::function_tables;
+use crate::passes::simplify::interpolated_tables::interpolated_tables;
 use crate::passes::simplify::quotient_tables::quotient_tables;
 use crate::passes::simplify::reciprocals::reciprocals;
 use crate::passes::simplify::remainders::remainders;
@@ -76,7 +77,8 @@ passes! {
     PruneMinima "prune-minima" "passes/branches/prune_minima" "branch and bound on minima and maxima"
     ConstantFactors "constant-factors" "passes/simplify/constant_factors" "constant factors joined"
     Remainders "remainders" "passes/simplify/remainders" "remainders by constants as differences"
-    FunctionTables "function-tables" "passes/simplify/function_tables" "tables of functions of one real of a short range"
+    FunctionTables "function-tables" "passes/simplify/function_tables" "tables of functions of one real of a short range or a period"
+    InterpolatedTables "interpolated-tables" "passes/simplify/interpolated_tables" "tables of sines with lines between their entries"
     QuotientTables "quotient-tables" "passes/simplify/quotient_tables" "tables of integer quotients and remainders by constants"
     Reciprocals "reciprocals" "passes/simplify/reciprocals" "division as multiplication by a shared reciprocal"
     Phases "phases" "passes/loops/strength_reduction" "phase accumulators for periodic functions of the column"
@@ -106,6 +108,7 @@ pub const REWRITES: &[(Pass, Rewrite)] = &[
     (Pass::ConstantFactors, constant_factors),
     (Pass::Remainders, remainders),
     (Pass::FunctionTables, function_tables),
+    (Pass::InterpolatedTables, interpolated_tables),
     (Pass::QuotientTables, quotient_tables),
     (Pass::Reciprocals, reciprocals),
 ];

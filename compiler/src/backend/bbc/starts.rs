@@ -7,7 +7,7 @@ use super::is_first;
 use super::screen;
 use super::tables::groups;
 use crate::plan::Plan;
-use crate::plan::table_init::Recipe;
+use crate::plan::table_init::{From, Recipe};
 use slowlight_routine::{Op, Overhead, Value};
 use slowlight_runtime_bbc::literal;
 
@@ -69,7 +69,7 @@ fn filling(plan: &Plan) -> u64 {
         let mut seeded = false;
         let tables = group.tables.iter().map(|(id, table)| {
             if let Some(recipe) = plan.table(*id).and_then(|made| made.recipe) {
-                seeded = true;
+                seeded |= recipe.from != From::Index;
                 return DIM + cells * (CLEARED + element + worked_out(plan, recipe, read));
             }
             let texts = table.entries.iter().map(|entry| match entry.value() {
@@ -98,6 +98,12 @@ fn worked_out(plan: &Plan, recipe: Recipe, read: u64) -> u64 {
     }
     if recipe.scale != 1.0 {
         cycles += with(recipe.scale, mul);
+    }
+    if let Some(function) = recipe.function {
+        cycles += usual(plan, function.op);
+        if function.times != 1.0 {
+            cycles += with(function.times, mul);
+        }
     }
     if let Some(more) = recipe.more {
         cycles += KEEP + 2 * read + mul;

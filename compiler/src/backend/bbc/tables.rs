@@ -8,7 +8,7 @@ use super::code::Code;
 use super::strings;
 use crate::ir::graph::{Table, TableId};
 use crate::plan::Plan;
-use crate::plan::table_init::{From, Recipe};
+use crate::plan::table_init::{From, Function, Recipe};
 use slowlight_routine::{Type, Value};
 use slowlight_runtime_bbc::literal;
 
@@ -33,7 +33,8 @@ pub(super) fn groups(plan: &Plan) -> Vec<Group<'_>> {
         }
         let (id, size) = (TableId(k as u32), (table.width, table.height));
         let recipe = plan.table(id).and_then(|made| made.recipe);
-        let seed: &[i32] = if recipe.is_some() { &table.seed } else { &[] };
+        let is_image = recipe.is_some_and(|recipe| recipe.from != From::Index);
+        let seed: &[i32] = if is_image { &table.seed } else { &[] };
         let fits = |g: &&mut Group<'_>| {
             g.size == size && (seed.is_empty() || g.seed.is_empty() || g.seed == seed)
         };
@@ -84,7 +85,7 @@ pub fn make(plan: &Plan, code: &mut Code<'_>) {
             code.statement(format!("DIM {}", some.join(",")));
         }
         let made = |id: &TableId| recipe(plan, *id);
-        let seeded = group.tables.iter().any(|(id, _)| made(id).is_some());
+        let seeded = !group.seed.is_empty();
         let cell = seeded.then(|| code.values.names.unique("cell", ""));
         let entry = seeded.then(|| code.values.names.unique("entry", ""));
         let element = |code: &Code<'_>, id: TableId| format!("{}({index})", name(code, id));
@@ -93,7 +94,9 @@ pub fn make(plan: &Plan, code: &mut Code<'_>) {
         let read: Vec<String> = (cell.iter().cloned())
             .chain(plain.clone().map(|(id, _)| element(code, *id)))
             .collect();
-        code.statement(format!("READ {}", read.join(",")));
+        if !read.is_empty() {
+            code.statement(format!("READ {}", read.join(",")));
+        }
         for (id, table) in plain {
             let element = element(code, *id);
             match scale(plan, table) {
@@ -106,19 +109,18 @@ pub fn make(plan: &Plan, code: &mut Code<'_>) {
             .collect();
         let mut kept = None;
         for (id, table, recipe) in in_order(&cooked) {
-            if let (Some(cell), Some(entry)) = (&cell, &entry) {
-                let from = match recipe.from {
-                    From::Seed => cell.clone(),
-                    From::Table(of) => element(code, of),
-                };
-                let element = element(code, id);
-                let pot = Pot {
-                    from: &from,
-                    entry,
-                    kept,
-                };
-                kept = pot.cook(code, recipe, table, &element);
-            }
+            let from = match recipe.from {
+                From::Seed => cell.clone().unwrap_or_default(),
+                From::Table(of) => element(code, of),
+                From::Index => index.to_owned(),
+            };
+            let element = element(code, id);
+            let pot = Pot {
+                from: &from,
+                entry: entry.as_deref().unwrap_or_default(),
+                kept,
+            };
+            kept = pot.cook(code, recipe, table, &element);
         }
         code.statement(ends);
     }
@@ -172,6 +174,9 @@ impl Pot<'_> {
     ) -> Option<(From, [u64; 2])> {
         let Pot { from, entry, .. } = *self;
         let mut text = self.line(recipe);
+        if let Some(of) = recipe.function {
+            text = function(of, &text);
+        }
         let mut left = None;
         let simple = |text: &str| text == from || text == entry;
         let signs = table.entries.iter().any(|e| e.value().real() < 0.0);
@@ -220,6 +225,14 @@ impl Pot<'_> {
             true => format!("({text})*{scale}"),
             false => format!("{text}*{scale}"),
         }
+    }
+}
+
+/// A function of an expression; only sines are made so.
+fn function(Function { times, .. }: Function, of: &str) -> String {
+    match times {
+        1.0 => format!("SIN({of})"),
+        times => format!("SIN({of})*{}", literal(times)),
     }
 }
 

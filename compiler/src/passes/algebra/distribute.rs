@@ -22,6 +22,9 @@ const LARGER: f64 = 8.0;
 /// How far sums of whole numbers are looked into.
 const DEEP: u32 = 6;
 
+/// How many terms sums in sums may have.
+const TERMS: usize = 6;
+
 /// How many factors one behind the other are looked at.
 const FACTORS: usize = 4;
 
@@ -34,14 +37,16 @@ pub fn distribute(graph: &Graph, ranges: &Ranges) -> Option<Graph> {
     };
     let mut done = false;
     let next = rebuild_old(graph, &mut |builder, made, id, span| {
-        let (factors, sum) = site.product(id)?;
-        let Node::Apply(op, terms) = graph.node(sum) else {
-            return None;
-        };
+        let (factors, terms) = site.product(id)?;
         let new = |id: NodeId| made.get(id.0 as usize).copied().flatten();
-        let [a, b] = terms.map(|term| put(builder, &new, &factors, term, span));
+        let mut parts = Vec::new();
+        for group in site.groups(terms) {
+            let terms = group.iter().map(|term| Some((new(term.id)?, term.plus)));
+            let (sum, plus) = sum_of(builder, &terms.collect::<Option<Vec<_>>>()?, span)?;
+            parts.push((put(builder, &new, &factors, sum, span)?, plus));
+        }
         done = true;
-        Some(builder.apply(op, &[a?, b?], span))
+        sum_of(builder, &parts, span).map(|(sum, _)| sum)
     });
     done.then_some(next)
 }
@@ -49,15 +54,37 @@ pub fn distribute(graph: &Graph, ranges: &Ranges) -> Option<Graph> {
 /// A factor, or what is divided by.
 type Factor = (Op, NodeId);
 
-/// A term with all the factors, as they stood around the sum.
+/// A term of a sum, added or taken away.
+#[derive(Clone, Copy)]
+struct Term {
+    id: NodeId,
+    plus: bool,
+}
+
+/// The sum of values that are added or taken away; its negative, and that it is, where all are
+/// taken away.
+fn sum_of(builder: &mut Builder, values: &[(NodeId, bool)], span: Span) -> Option<(NodeId, bool)> {
+    let (added, taken): (Vec<_>, Vec<_>) = values.iter().partition(|(_, plus)| *plus);
+    let plus = !added.is_empty();
+    let (first, rest) = if plus {
+        (added, taken)
+    } else {
+        (taken, Vec::new())
+    };
+    let ids = |of: Vec<(NodeId, bool)>| of.into_iter().map(|(id, _)| id);
+    let mut add = |op, a, b| builder.apply(op, &[a, b], span);
+    let sum = ids(first).reduce(|a, b| add(Op::Add, a, b))?;
+    Some((ids(rest).fold(sum, |a, b| add(Op::Sub, a, b)), plus))
+}
+
+/// A value with all the factors, as they stood around the sum.
 fn put(
     builder: &mut Builder,
     new: &dyn Fn(NodeId) -> Option<NodeId>,
     factors: &[Factor],
-    term: NodeId,
+    mut made: NodeId,
     span: Span,
 ) -> Option<NodeId> {
-    let mut made = new(term)?;
     for &(op, by) in factors.iter().rev() {
         made = builder.apply(op, &[made, new(by)?], span);
     }
@@ -71,9 +98,9 @@ struct Site<'g> {
 }
 
 impl Site<'_> {
-    /// The factors of a product, the outermost first, and the sum of which both terms change less
-    /// often than it.
-    fn product(&self, id: NodeId) -> Option<(Vec<Factor>, NodeId)> {
+    /// The factors of a product, the outermost first, and the terms of the sum, all of which change
+    /// less often than it.
+    fn product(&self, id: NodeId) -> Option<(Vec<Factor>, Vec<Term>)> {
         let (mut factors, mut at) = (Vec::new(), id);
         while let Node::Apply(op @ (Op::Mul | Op::Div), [a, b]) = self.graph.node(at) {
             let fewer = |one, other| self.changes(&[one]).len() < self.changes(&[other]).len();
@@ -88,16 +115,61 @@ impl Site<'_> {
                 return None;
             }
         }
-        let Node::Apply(Op::Add | Op::Sub, terms) = self.graph.node(at) else {
+        if factors.is_empty() {
             return None;
-        };
+        }
         let by: Vec<NodeId> = factors.iter().map(|(_, by)| *by).collect();
         let all = self.changes(&[&by[..], &[at]].concat());
         let pays = |term: NodeId| {
             let needs = self.changes(&[&by[..], &[term]].concat());
-            needs.len() < all.len() && self.fits(term, (at, id)) && !self.is_exact(term, DEEP)
+            needs.len() < all.len() && self.fits(term, (at, id))
         };
-        (!factors.is_empty() && terms.into_iter().all(pays)).then_some((factors, at))
+        let mut terms = Vec::new();
+        self.terms(at, &pays, true, &mut terms)?;
+        let exact = terms.iter().all(|term| self.is_exact(term.id, DEEP));
+        (!exact).then_some((factors, terms))
+    }
+
+    /// The terms of a sum, those of a sum in it where that changes too often.
+    fn terms(
+        &self,
+        sum: NodeId,
+        pays: &dyn Fn(NodeId) -> bool,
+        plus: bool,
+        found: &mut Vec<Term>,
+    ) -> Option<()> {
+        let Node::Apply(op @ (Op::Add | Op::Sub), terms) = self.graph.node(sum) else {
+            return None;
+        };
+        for (id, plus) in terms.into_iter().zip([plus, plus == (op == Op::Add)]) {
+            match pays(id) {
+                true => found.push(Term { id, plus }),
+                false if found.len() < TERMS => self.terms(id, pays, plus, found)?,
+                false => return None,
+            }
+        }
+        Some(())
+    }
+
+    /// Terms by what they change with: what changes with less is added to the first that changes
+    /// with that, too.
+    fn groups(&self, terms: Vec<Term>) -> Vec<Vec<Term>> {
+        let mut groups: Vec<(FxHashSet<Dependence>, Vec<Term>)> = Vec::new();
+        let mut sets: Vec<_> = terms.iter().map(|term| self.changes(&[term.id])).collect();
+        for k in 0..sets.len() {
+            let larger = |other: &&FxHashSet<Dependence>| other.is_superset(&sets[k]);
+            let most = sets.iter().filter(larger).max_by_key(|set| set.len());
+            if let Some(most) = most.cloned() {
+                sets[k] = most;
+            }
+        }
+        for (term, set) in terms.into_iter().zip(sets) {
+            match groups.iter_mut().find(|(of, _)| *of == set) {
+                Some((_, group)) => group.push(term),
+                None => groups.push((set, vec![term])),
+            }
+        }
+        groups.into_iter().map(|(_, group)| group).collect()
     }
 
     /// What values change with, within a picture.
@@ -116,7 +188,7 @@ impl Site<'_> {
     }
 
     /// Whether a value is whole numbers and sums of them, as far as that is looked into: where
-    /// two such are opposite, nothing is left, as it is meant.
+    /// all terms are, and opposite, nothing is left, as it is meant.
     fn is_exact(&self, id: NodeId, deep: u32) -> bool {
         match self.graph.node(id) {
             Node::Apply(Op::ToReal, _) => true,
@@ -168,6 +240,11 @@ mod tests {
         assert_eq!(products(&format!("({turned}) / 7")), Some((2, 0)));
         assert_eq!(
             products("0.3 * (sin(x * 1rad) + cos(y * a * 1rad))"),
+            Some((1, 0))
+        );
+        // Also where the sum has more of them, in any order.
+        assert_eq!(
+            products("0.3 * (sin(x * 1rad) - (a - cos(y * a * 1rad)))"),
             Some((1, 0))
         );
     }

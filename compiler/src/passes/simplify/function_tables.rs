@@ -1,5 +1,6 @@
 //! Tabulation: functions of one real that is clamped to a short range, or is what a floor leaves,
-//! become tables, read at the place where the real stands among 256.
+//! become tables, read at the place where the real stands among 256; sines and cosines, too, by
+//! their period ([`periodic`]).
 //!
 //! A fade between two numbers of noise is a cubic of what is left of a coordinate: two products
 //! and four sums that clamp. Formats of few bits hold no more of it than a table of 256 does,
@@ -11,6 +12,7 @@
 //! `x` itself are no place of `x - floor(x)`: 256 `x` may be rounded up where `x` is cut.)
 
 use crate::analysis::range::Ranges;
+use crate::analysis::rate::rates;
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
 use crate::passes::rewrite::rebuild::rebuild_old;
@@ -18,6 +20,8 @@ use crate::source::Span;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Format, Op, Runtime, Type, Value};
 use std::cell::Cell;
+
+pub(super) mod periodic;
 
 /// Into how many parts a range is cut; a table has an entry for each end of them.
 const PARTS: u32 = 256;
@@ -38,27 +42,32 @@ const COARSE: u32 = 8;
 const WORK: u64 = 4_000_000;
 
 /// The name of such a table; a scene's own may have it, too.
-const NAME: &str = "function";
+pub(super) const NAME: &str = "function";
 
-/// The graph with such tables; nothing where there are none that pay, or its format has digits
-/// for more than they give.
+/// The graph with such tables; nothing where there are none. Where its format has digits for more
+/// than they give, only periods are tabulated.
 pub fn function_tables(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Option<Graph> {
-    if !is_short(runtime.real) {
-        return None;
-    }
     let site = Site {
         graph,
         ranges,
         runtime,
         left: Cell::new(WORK),
     };
-    let all = site.found();
-    if all.is_empty() {
+    let all = match is_short(runtime.real) {
+        true => site.found(),
+        false => FxHashMap::default(),
+    };
+    let rates = rates(graph);
+    let is_angle = |id| periodic::angle(graph, &rates, id).is_some();
+    if all.is_empty() && !graph.ids().any(is_angle) {
         return None;
     }
     Some(rebuild_old(graph, &mut |builder, made, id, span| {
-        let found = all.get(&id)?;
         let new = |old: NodeId| made.get(old.0 as usize).copied().flatten();
+        if let Some((op, angle)) = periodic::angle(graph, &rates, id) {
+            return Some(periodic::looked_up(builder, op, new(angle)?, span));
+        }
+        let found = all.get(&id)?;
         let index = site.index(builder, &new, found, span)?;
         let entries = found.entries.iter().map(|x| Constant::new(Value::Real(*x)));
         let table = builder.table(Table {

@@ -4,6 +4,7 @@ pub mod constant_factors;
 pub mod fold;
 pub mod function_tables;
 pub mod integer_parts;
+pub mod interpolated_tables;
 pub mod quotient_tables;
 pub mod range_folding;
 pub mod reciprocals;
