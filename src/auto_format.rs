@@ -121,7 +121,11 @@ pub fn plan(screen: &ScreenArgs, scene: &Scene, target: &'static Target) -> Outc
             if cut && screen.format.is_some() {
                 say_cut(plan.target);
             }
-            let (plan, tabled) = tabulated::within_goal(screen, scene, plan)?;
+            let asked = screen.format.is_some() || screen.tables.is_some();
+            let (plan, tabled) = match asked {
+                true => (plan, None),
+                false => tabulated::within_goal(screen, scene, plan)?,
+            };
             Ok(Chosen {
                 plan,
                 why: None,

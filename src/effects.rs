@@ -151,7 +151,7 @@ pub fn look(
 ) -> Outcome<Effects> {
     let plan = auto_format::plan(screen, scene, target)?.said();
     // Everything else is held against that, in its format.
-    let screen = &screen.in_format_of(plan.target);
+    let screen = &screen.like(&plan);
     let mut counted = count_lines(scene, plan.clone(), screen, limit)?;
     let computed = Window::of(&plan).count();
     let pixels = sample(&plan);

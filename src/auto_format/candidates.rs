@@ -90,7 +90,7 @@ impl Candidate {
 
 /// Whether a format is of those that are looked at first.
 pub(super) fn is_short(format: Format) -> bool {
-    matches!(format, Format::Log { .. }) || (1..=16).contains(&format.bits())
+    !format.is_long()
 }
 
 /// Whether it is one of those that only have more bits behind the point than another.

@@ -8,17 +8,14 @@ use super::candidates::{Share, expected};
 use crate::estimate;
 use crate::failure::{Failure, Outcome};
 use crate::scene::Scene;
-use crate::target_args::ScreenArgs;
+use crate::target_args::{ScreenArgs, TABLES};
 use slowlight_compiler::passes::simplify::function_tables::has_function_tables;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::pipeline::Pass;
 use slowlight_compiler::targets::Target;
 
 /// What is left out, step by step.
-const LEFT_OUT: [&[Pass]; 2] = [
-    &[Pass::FunctionTables],
-    &[Pass::FunctionTables, Pass::InterpolatedTables],
-];
+const LEFT_OUT: [&[Pass]; 2] = [&[TABLES[0]], &TABLES];
 
 /// Of the pixels that are wrong with tables, at most such a part is without where these are left out.
 const BLAMED: f64 = 0.75;
@@ -49,7 +46,7 @@ impl<'s> Fewer<'s> {
         if !has_function_tables(&plan.graph) {
             return Ok(None);
         }
-        if self.step == 0 && plan.pipeline().count(Pass::FunctionTables).kept == 0 {
+        if self.step == 0 && plan.pipeline().count(TABLES[0]).kept == 0 {
             self.step = 1;
         }
         let Some(passes) = LEFT_OUT.get(self.step) else {

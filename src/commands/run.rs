@@ -204,7 +204,7 @@ fn prepare(args: &Args, scene: &Scene) -> Outcome<(PlannedScene, program::Values
         let out = "leave --rows out, or change its first and last row";
         return Err(Failure::Usage(format!("{what} {first}..{last}; {out}")));
     }
-    let mut screen = args.screen.in_format_of(plan.target);
+    let mut screen = args.screen.like(&plan);
     if plan.moved {
         screen.page = plan.page;
     }

@@ -1,6 +1,6 @@
 //! What is asked of targets that draw column scenes only.
 
-use super::ScreenArgs;
+use super::{ScreenArgs, TABLES, Tables};
 use crate::failure::{Failure, Outcome};
 use crate::scene::Scene;
 use slowlight_compiler::plan::Plan;
@@ -44,7 +44,13 @@ impl ScreenArgs {
             Pass::ScanlineSpans,
             Pass::Phases,
         ];
-        let own = self.passes.left_out();
+        let mut own = self.passes.left_out();
+        // Who asks for a format of many digits wants what these give.
+        let exact = self.tables == Some(Tables::No)
+            || self.tables.is_none() && self.format.is_some() && target.runtime.real.is_long();
+        if exact {
+            own = TABLES.into_iter().fold(own, PassSet::with);
+        }
         match target.columns_only {
             true => along_rows.into_iter().fold(own, PassSet::with),
             false => own,

@@ -1,13 +1,14 @@
 //! The graph of a scene as a target is to run it: whether shapes that are alike are found by
 //! cells, in a table, or by code each, is decided by what plans without a search are said to take.
 
-use super::ScreenArgs;
+use super::{ScreenArgs, Tables};
 use crate::estimate;
 use crate::failure::{Failure, Outcome};
 use crate::moving;
 use crate::need;
 use crate::scene::{Limits, Precision, Scene};
 use slowlight_compiler::ir::graph::Graph;
+use slowlight_compiler::passes::simplify::function_tables::has_function_tables;
 use slowlight_compiler::plan::Goal;
 use slowlight_compiler::planner::pipeline::Pass;
 use slowlight_compiler::planner::{PlannedScene, plan_among};
@@ -93,7 +94,20 @@ impl ScreenArgs {
     pub fn in_format_of(&self, target: &Target) -> ScreenArgs {
         ScreenArgs {
             format: Some(target.runtime.format.to_owned()),
+            tables: self.tables.or(Some(Tables::Yes)),
             ..self.clone()
+        }
+    }
+
+    /// The same options, with a plan's format, and tables of functions where that has some.
+    pub fn like(&self, plan: &PlannedScene) -> ScreenArgs {
+        let tables = match has_function_tables(&plan.graph) {
+            true => Tables::Yes,
+            false => Tables::No,
+        };
+        ScreenArgs {
+            tables: Some(tables),
+            ..self.in_format_of(plan.target)
         }
     }
 

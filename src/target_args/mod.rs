@@ -13,7 +13,7 @@ mod sampling;
 mod values;
 
 pub use heap::HeapOf;
-pub use passes::PassArgs;
+pub use passes::{PassArgs, TABLES};
 pub use read::*;
 pub use sampling::{Refining, refining};
 pub use values::*;
@@ -69,6 +69,11 @@ pub struct ScreenArgs {
     /// The same in a word: `fast` 3%, `balanced` 1%, `exact` 0.1%
     #[arg(long, value_name = "GOAL", help_heading = "How numbers are held", conflicts_with_all = ["format", "error"])]
     pub goal: Option<ErrorGoal>,
+    /// Whether sines and cosines that change from pixel to pixel are looked up in tables
+    /// [default: where the picture stays within --error; where a --format of more than 16 bits is
+    /// asked for, no]
+    #[arg(long, value_name = "TABLES", help_heading = "How numbers are held")]
+    pub tables: Option<Tables>,
     /// Where programs begin on a BBC Micro, in hexadecimal: 1900 with a disc, E00 without
     /// [default: 1900; a program that needs more is at E00, where its disc moves it]
     #[arg(long, value_name = "PAGE", value_parser = page)]

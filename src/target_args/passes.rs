@@ -5,6 +5,9 @@ use slowlight_compiler::planner::pass_manager::PassSet;
 use slowlight_compiler::planner::pipeline::{PASSES, Pass};
 use slowlight_compiler::sema::{Instancing, Ways};
 
+/// The passes that look functions up in tables: those without lines between entries first.
+pub const TABLES: [Pass; 2] = [Pass::FunctionTables, Pass::InterpolatedTables];
+
 /// Passes that are left out.
 #[derive(Args, Clone, Debug, Default)]
 pub struct PassArgs {

@@ -2,6 +2,7 @@
 
 use crate::failure::{Failure, Outcome};
 use clap::ValueEnum;
+use serde::{Deserialize, Serialize};
 
 /// What may be done for the plan of one way among many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +40,28 @@ impl ErrorGoal {
             ErrorGoal::Fast => 0.03,
             ErrorGoal::Balanced => 0.01,
             ErrorGoal::Exact => 0.001,
+        }
+    }
+}
+
+/// Whether functions of what changes from pixel to pixel are looked up in tables.
+#[derive(
+    ValueEnum, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Tables {
+    /// Where that is quicker
+    Yes,
+    /// Each is worked out
+    No,
+}
+
+impl Tables {
+    /// As the option has it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Tables::Yes => "yes",
+            Tables::No => "no",
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::given::quoted;
 use crate::scene::{Changes, Limits};
-use crate::target_args::{Os, Refining, ScreenArgs};
+use crate::target_args::{Os, Refining, ScreenArgs, Tables};
 use crate::trial::HACK_HERTZ;
 use crate::ways::WayArgs;
 use serde::{Deserialize, Serialize};
@@ -55,6 +55,8 @@ pub struct Choice {
     pub setting: Setting,
     /// How reals are held.
     pub format: String,
+    /// Whether functions are looked up in tables, where there is a choice.
+    pub tables: Option<Tables>,
     /// Whether all params are folded.
     pub frozen: bool,
     /// Whether it has subroutines where it would fit without.
@@ -98,6 +100,9 @@ impl Base {
         // Unless it is the only one, another may be taken unasked.
         if formats(self.target).count() > 1 {
             add("--format", choice.format.clone());
+        }
+        if let Some(tables) = choice.tables {
+            add("--tables", tables.word().to_owned());
         }
         for value in &self.changes.set {
             add("--set", value.clone());
@@ -172,6 +177,7 @@ impl Base {
     pub fn screen(&self, choice: &Choice) -> ScreenArgs {
         ScreenArgs {
             format: Some(choice.format.clone()),
+            tables: choice.tables.or(self.screen.tables),
             block: Some(choice.setting.block),
             refine: choice.setting.refine,
             max_turns: choice.setting.max_turns,
@@ -213,6 +219,7 @@ mod tests {
         let mut choice = Choice {
             setting: Setting::WHOLE,
             format: "real40".to_owned(),
+            tables: None,
             frozen: false,
             outlined: false,
             thrift: 0,
@@ -253,6 +260,7 @@ mod tests {
                 },
             },
             format: "log10".to_owned(),
+            tables: None,
             frozen: true,
             outlined: true,
             thrift: 5,

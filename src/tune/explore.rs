@@ -19,7 +19,8 @@ use crate::format::count;
 use crate::jobs;
 use crate::measure::Errors;
 use crate::progress::Progress;
-use crate::scene::Scene;
+use crate::scene::{Precision, Scene};
+use slowlight_compiler::passes::simplify::function_tables::has_periods;
 use std::sync::{Arc, Mutex};
 
 /// What was found so far.
@@ -101,7 +102,7 @@ pub fn explore(
     let folds = going.folds();
     let first = |choice: &Choice| is_first(choice, folds);
     let (whole, mut others): (Vec<Choice>, Vec<Choice>) =
-        (choices(search, folds, &settings).into_iter()).partition(first);
+        (choices(search, (folds, going.has_functions()?), &settings).into_iter()).partition(first);
     let quick: Vec<(Choice, Begun)> = quick.into_iter().collect();
     others.retain(|choice| quick.iter().all(|(quick, _)| quick != choice));
     note(found, |f| {
@@ -130,6 +131,12 @@ impl Going<'_> {
         has_params && !self.search.live
     }
 
+    /// Whether the scene has functions that tables may hold.
+    fn has_functions(&self) -> Outcome<bool> {
+        let graph = self.scenes.live.graph(None, Precision::NATIVE)?;
+        Ok(has_periods(&graph))
+    }
+
     /// A coarse picture, which is there at once: something to look at while settings are
     /// drawn.
     fn quick(&self, hear: Hear<'_>) -> Outcome<Option<(Choice, Begun)>> {
@@ -143,6 +150,7 @@ impl Going<'_> {
         let choice = Choice {
             setting,
             format: self.search.base.target.runtime.format.to_owned(),
+            tables: None,
             frozen: self.folds(),
             outlined: false,
             thrift: 0,

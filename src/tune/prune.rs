@@ -95,6 +95,7 @@ mod tests {
         Choice {
             setting: drafted(block, 0, 0).setting,
             format: format.to_owned(),
+            tables: None,
             frozen: false,
             outlined: false,
             thrift: 0,

@@ -270,6 +270,7 @@ impl<'a> Told<'a> {
             "on_frontier": by.is_none(),
             "dominated_by": by.map(|k| self.base.words(&self.points[k].choice).join(" ")),
             "format": choice.format,
+            "tables": choice.tables,
             "frozen": choice.frozen,
             "block": choice.setting.block,
             "refine": choice.setting.refine.map(|refine| refine.to_string()),

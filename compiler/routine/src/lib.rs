@@ -65,6 +65,11 @@ impl Format {
         }
     }
 
+    /// Whether it has more than 16 bits for a real.
+    pub fn is_long(self) -> bool {
+        !matches!(self, Format::Log { .. }) && !(1..=16).contains(&self.bits())
+    }
+
     /// The scalar type that it holds.
     pub fn scalar(self) -> Type {
         match self {

@@ -12,6 +12,7 @@ use crate::passes::branches::prune_minima::prune_minima;
 use crate::passes::loops::polynomials::differences::forward_differences;
 use crate::passes::loops::polynomials::polynomials;
 use crate::passes::loops::trip_counts::trip_counts;
+use crate::passes::simplify::bitwise::bitwise;
 use crate::passes::simplify::constant_factors::constant_factors;
 use crate::passes::simplify::function_tables::function_tables;
 use crate::passes::simplify::interpolated_tables::interpolated_tables;
@@ -79,6 +80,7 @@ passes! {
     Remainders "remainders" "passes/simplify/remainders" "remainders by constants as differences"
     FunctionTables "function-tables" "passes/simplify/function_tables" "tables of functions of one real of a short range or a period"
     InterpolatedTables "interpolated-tables" "passes/simplify/interpolated_tables" "tables of sines with lines between their entries"
+    Bitwise "bitwise" "passes/simplify/bitwise" "bitwise operations of what is added up bit by bit"
     QuotientTables "quotient-tables" "passes/simplify/quotient_tables" "tables of integer quotients and remainders by constants"
     Reciprocals "reciprocals" "passes/simplify/reciprocals" "division as multiplication by a shared reciprocal"
     Phases "phases" "passes/loops/strength_reduction" "phase accumulators for periodic functions of the column"
@@ -109,6 +111,7 @@ pub const REWRITES: &[(Pass, Rewrite)] = &[
     (Pass::Remainders, remainders),
     (Pass::FunctionTables, function_tables),
     (Pass::InterpolatedTables, interpolated_tables),
+    (Pass::Bitwise, bitwise),
     (Pass::QuotientTables, quotient_tables),
     (Pass::Reciprocals, reciprocals),
 ];

@@ -118,7 +118,7 @@ fn held_as(screen: &ScreenArgs, plan: &PlannedScene) -> ScreenArgs {
         mode,
         error: None,
         goal: None,
-        ..screen.in_format_of(plan.target)
+        ..screen.like(plan)
     }
 }
 

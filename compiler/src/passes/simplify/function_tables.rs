@@ -83,6 +83,14 @@ pub fn function_tables(graph: &Graph, ranges: &Ranges, runtime: &Runtime) -> Opt
     }))
 }
 
+/// Whether a graph has sines or cosines that may be looked up.
+pub fn has_periods(graph: &Graph) -> bool {
+    let rates = rates(graph);
+    graph
+        .ids()
+        .any(|id| periodic::angle(graph, &rates, id).is_some())
+}
+
 /// Whether a graph reads such tables.
 pub fn has_function_tables(graph: &Graph) -> bool {
     graph.tables.iter().any(|table| table.name == NAME)

@@ -1,5 +1,6 @@
 //! Simplification: values that are equal by algebra or by their ranges, in fewer operations.
 
+pub mod bitwise;
 pub mod constant_factors;
 pub mod fold;
 pub mod function_tables;
