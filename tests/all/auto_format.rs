@@ -132,6 +132,36 @@ fn the_error_that_is_allowed_decides() {
 }
 
 #[test]
+fn functions_are_looked_up_where_a_machine_has_one_format_and_the_picture_takes_it() {
+    let dir = directory(&SCENES);
+    let run = |more: &[&str]| {
+        let run = ran(dir.path(), "waves.scn", "bbc:micro", more);
+        assert_eq!(run["differs_from_model"], 0, "{more:?}");
+        run
+    };
+    let none = run(&["--tables", "no"]);
+    assert_eq!(
+        run(&["--format", "real40"]),
+        none,
+        "a format that is asked for is exact"
+    );
+    assert!(wrong(&run(&["--error", "0"])) == 0.0);
+    let [usual, any] = [run(&[]), run(&["--tables", "yes"])];
+    assert!(
+        wrong(&none) <= wrong(&usual) && wrong(&usual) <= 0.015,
+        "{usual}"
+    );
+    assert!(cycles(&any) <= cycles(&usual), "{any} {usual}");
+    assert!(3 * cycles(&usual) < 2 * cycles(&none), "{usual} {none}");
+    let args = ["run", "waves.scn", "--target", "bbc:micro"];
+    let said = |more: &[&str]| {
+        let output = slowlight(dir.path(), &[&args[..], more].concat());
+        String::from_utf8_lossy(&output.stderr).contains("looked up in tables")
+    };
+    assert!(said(&[]) && !said(&["--tables", "no"]));
+}
+
+#[test]
 fn where_no_format_is_within_the_goal_the_nearest_is_taken_and_that_is_said() {
     // An orbit that doubles what is between two of its points faster than any format has digits.
     let scene = "image 32 x 24 inks black, white;

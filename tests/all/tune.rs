@@ -302,6 +302,7 @@ pub fn planted(block: u32, cycles: u64, pixels: u64) -> Point {
                 ..Setting::WHOLE
             },
             format: "f316".to_owned(),
+            tables: None,
             frozen: false,
             outlined: false,
             thrift: 0,

@@ -146,7 +146,8 @@ impl Code<'_> {
         if range.within(0.0, f64::from(n) - 1.0) {
             return write::byte(&place, 0);
         }
-        if self.asks && n <= 0x80 && range.within(-128.0, 127.0) {
+        let signed = n <= 0x80 && range.within(-128.0, 127.0);
+        if signed || range.within(0.0, 255.0) {
             self.clamp_byte(&place, (range, n), to);
             return to.to_owned();
         }
@@ -161,15 +162,15 @@ impl Code<'_> {
         self.text.code(&format!("lda {}", write::byte(place, 0)));
         if range.lo < 0.0 {
             self.text.code(&format!(
-                "bpl vcs_above{serial} | lda #0 | beq vcs_within{serial}"
+                "bpl above_byte{serial} | lda #0 | beq within_byte{serial}"
             ));
-            self.text.label(&format!("vcs_above{serial}"));
+            self.text.label(&format!("above_byte{serial}"));
         }
         self.text.code(&format!(
-            "cmp #{n} | bcc vcs_within{serial} | lda #{}",
+            "cmp #{n} | bcc within_byte{serial} | lda #{}",
             n - 1
         ));
-        self.text.label(&format!("vcs_within{serial}"));
+        self.text.label(&format!("within_byte{serial}"));
         self.text.code(&format!("sta {to}"));
     }
 

@@ -107,6 +107,11 @@ fn moved(builder: &mut Builder, of: NodeId, by: usize, span: Span) -> NodeId {
 /// Every int's bits; others' are their own. Linear in the graph.
 fn all_bits(graph: &Graph, ranges: &Ranges) -> Vec<Bits> {
     let mut all: Vec<Bits> = Vec::with_capacity(graph.nodes.len());
+    // What saturates has other bits.
+    let fits = |id: NodeId| {
+        let exact = ranges.exact.get(id.0 as usize);
+        exact.is_some_and(|range| range.within(-32767.0, 32767.0))
+    };
     for id in graph.ids() {
         let own: Bits = std::array::from_fn(|k| Bit::Copy((id, k)));
         let mut bits = match graph.node(id) {
@@ -115,12 +120,13 @@ fn all_bits(graph: &Graph, ranges: &Ranges) -> Vec<Bits> {
                 std::array::from_fn(|k| if n >> k & 1 == 1 { Bit::One } else { Bit::Zero })
             }
             Node::Apply(op, [a, b]) if op.result() == Type::Int => {
-                // What saturates has other bits.
-                let exact = ranges.exact.get(id.0 as usize);
-                let fits = exact.is_some_and(|r| r.within(-32767.0, 32767.0));
                 let power = |id| power_of_two(graph.constant(id)?);
                 let of = |id: NodeId| all.get(id.0 as usize).copied().unwrap_or(own);
-                let made = fits.then(|| match (op, power(a), power(b)) {
+                let made = fits(id).then(|| match (op, power(a), power(b)) {
+                    (Op::BitAnd, _, Some(0)) => {
+                        let sum = fits(a).then(|| lowest(graph, a, &of)).flatten();
+                        sum.or_else(|| together(op, &of(a), &of(b), own))
+                    }
                     (Op::IntDiv, _, Some(by)) => Some(right(&of(a), by, own)),
                     (Op::IntMul, _, Some(by)) => Some(left(&of(a), by)),
                     (Op::IntMul, Some(by), _) => Some(left(&of(b), by)),
@@ -151,6 +157,18 @@ fn power_of_two(value: Value) -> Option<usize> {
     (n > 0 && n & (n - 1) == 0).then(|| n.trailing_zeros() as usize)
 }
 
+/// The lowest bit of a sum or difference, into which nothing is carried, if a value is one whose
+/// bits are its own.
+fn lowest(graph: &Graph, sum: NodeId, of: &dyn Fn(NodeId) -> Bits) -> Option<Bits> {
+    let Node::Apply(Op::IntAdd | Op::IntSub, [a, b]) = graph.node(sum) else {
+        return None;
+    };
+    (of(sum)[0] == Bit::Copy((sum, 0))).then_some(())?;
+    let mut bits = [Bit::Zero; BITS];
+    bits[0] = joined(Op::BitXor, of(a)[0], of(b)[0])?;
+    Some(bits)
+}
+
 /// The bits of a quotient; those that come from above what is looked at are its own.
 fn right(bits: &Bits, by: usize, own: Bits) -> Bits {
     std::array::from_fn(|k| bits.get(k + by).copied().unwrap_or(own[k]))
@@ -172,18 +190,12 @@ fn together(op: Op, a: &Bits, b: &Bits, own: Bits) -> Option<Bits> {
         Op::BitAnd | Op::BitOr | Op::BitXor => Some(each(op)),
         Op::IntMul | Op::IntMin if is_bit(a) && is_bit(b) => Some(each(Op::BitAnd)),
         Op::IntMax if is_bit(a) && is_bit(b) => Some(each(Op::BitOr)),
-        Op::IntAdd | Op::IntSub => {
-            let apart = a
-                .iter()
-                .zip(b)
-                .all(|pair| matches!(pair, (Bit::Zero, _) | (_, Bit::Zero)));
-            if apart && op == Op::IntAdd {
-                return Some(each(Op::BitOr));
-            }
-            // Nothing is carried into the lowest.
-            let mut bits = own;
-            bits[0] = joined(Op::BitXor, a[0], b[0]).unwrap_or(own[0]);
-            Some(bits)
+        Op::IntAdd => {
+            let pairs = a.iter().zip(b);
+            let apart = |pair| matches!(pair, (Bit::Zero, _) | (_, Bit::Zero));
+            (pairs.map(|(a, b)| (*a, *b)))
+                .all(apart)
+                .then(|| each(Op::BitOr))
         }
         _ => None,
     }

@@ -61,3 +61,26 @@ fn entries(op: Op) -> [Vec<f64>; 2] {
     let step = (0..PARTS).map(|k| at(k + 1) - at(k));
     [first.collect(), step.collect()]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::passes::loops::drawn::{analysed, shades};
+    use slowlight_runtime_6502::float::REAL40;
+
+    #[test]
+    fn lines_between_entries_are_as_near_as_they_say() {
+        let source = "image 24 x 16 inks black, white;
+             draw (x, y) = {
+               let a = x * 1.137 - y * 2.071;
+               threshold(0.5 + 0.2 * sin(a * 1rad) + 0.2 * cos(a * 0.3rad), 0.5)
+             };";
+        let plain = analysed(source, &REAL40);
+        let next = interpolated_tables(&plain.graph, &plain.ranges, &REAL40).expect("two sines");
+        let mut most = 0.0_f64;
+        for (old, new) in shades(&plain.graph).into_iter().zip(shades(&next)) {
+            most = most.max((old - new).abs());
+        }
+        assert!(most > 0.0 && most < 0.4 * 0.00121, "{most}");
+    }
+}

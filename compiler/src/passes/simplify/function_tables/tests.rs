@@ -63,3 +63,29 @@ fn formats_of_many_digits_keep_them() {
     assert!(tabled(fade, &FIXED24).1.is_none());
     assert!(tabled(fade, &REAL40).1.is_none());
 }
+
+#[test]
+fn sines_of_pixels_are_looked_up_in_any_format() {
+    for runtime in [&FIXED16, &FIXED24, &REAL40] {
+        for shade in ["0.5 + 0.4 * sin(a * 1rad)", "0.5 + 0.4 * cos(3 * a * 1rad)"] {
+            let (plain, next) = tabled(shade, runtime);
+            let next = next.expect(shade);
+            let is_sine = |id: &NodeId| matches!(next.node(*id), Node::Apply(Op::Sin | Op::Cos, _));
+            let reached = next.reached();
+            let left = next.ids().filter(is_sine);
+            assert_eq!(left.filter(|id| reached[id.0 as usize]).count(), 0);
+            // Half a part of the period, and of that four tenths.
+            for (old, new) in shades(&plain).into_iter().zip(shades(&next)) {
+                assert!((old - new).abs() < 0.4 * 0.0124, "{shade}: {old} {new}");
+            }
+        }
+    }
+}
+
+#[test]
+fn sines_of_a_column_a_row_or_a_picture_are_worked_out() {
+    for angle in ["x * 0.3", "y * 0.3 + 1", "0.7"] {
+        let shade = format!("0.5 + 0.4 * sin(({angle}) * 1rad)");
+        assert!(tabled(&shade, &REAL40).1.is_none(), "{angle}");
+    }
+}
