@@ -40,6 +40,7 @@ use candidates::{
 };
 use said::Others;
 pub use said::Why;
+use slowlight_compiler::passes::simplify::function_tables::has_periods_in_open_loops;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::targets::{Target, formats};
 use slowlight_routine::{Format, Op, Runtime};
@@ -292,10 +293,17 @@ fn quickest(
         let mut slower = false;
         let mut fewer = Fewer::new(&format, scene, target);
         let mut last = plan.clone();
-        while !within && let Some(other) = fewer.after(&last)? {
+        while (!within || has_periods_in_open_loops(&last.graph))
+            && let Some(other) = fewer.after(&last)?
+        {
             let looked = seen(&other);
-            if looked.2 || looked.1 < expected {
-                slower = true;
+            let better = match (within, looked.2) {
+                (true, true) => estimate::cycles(&looked.0) < estimate::cycles(&whole),
+                (false, false) => looked.1 < expected,
+                (_, other) => other,
+            };
+            if better {
+                slower |= !within;
                 ((whole, expected, within), plan) = (looked, other.clone());
             }
             last = other;

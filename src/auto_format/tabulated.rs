@@ -9,7 +9,9 @@ use crate::estimate;
 use crate::failure::{Failure, Outcome};
 use crate::scene::Scene;
 use crate::target_args::{ScreenArgs, TABLES};
-use slowlight_compiler::passes::simplify::function_tables::has_function_tables;
+use slowlight_compiler::passes::simplify::function_tables::{
+    has_function_tables, has_periods_in_open_loops,
+};
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::pipeline::Pass;
 use slowlight_compiler::targets::Target;
@@ -94,7 +96,7 @@ pub(super) fn within_goal(
     let mut fewer = Fewer::new(screen, scene, target);
     let mut all = vec![seen(plan)];
     while let Some(last) = all.last()
-        && (!last.is_within(goal) || last.plan.is_made_small())
+        && (!last.is_within(goal) || last.may_be_slower())
         && let Some(next) = fewer.after(&last.plan)?
     {
         all.push(seen(next));
@@ -126,6 +128,12 @@ struct Seen {
 }
 
 impl Seen {
+    /// Whether the same may be quicker without tables: where these take memory that others need, or
+    /// loops go on for longer.
+    fn may_be_slower(&self) -> bool {
+        self.plan.is_made_small() || has_periods_in_open_loops(&self.plan.graph)
+    }
+
     /// Whether its picture is known to be within the goal: without tables it is what was asked for.
     fn is_within(&self, goal: f64) -> bool {
         self.share.is_some_and(|share| share.most <= goal)

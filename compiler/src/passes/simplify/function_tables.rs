@@ -12,7 +12,7 @@
 //! `x` itself are no place of `x - floor(x)`: 256 `x` may be rounded up where `x` is cut.)
 
 use crate::analysis::range::Ranges;
-use crate::analysis::rate::rates;
+use crate::analysis::rate::{Dependence, rates};
 use crate::ir::build::Builder;
 use crate::ir::graph::*;
 use crate::passes::rewrite::rebuild::rebuild_old;
@@ -89,6 +89,28 @@ pub fn has_periods(graph: &Graph) -> bool {
     graph
         .ids()
         .any(|id| periodic::angle(graph, &rates, id).is_some())
+}
+
+/// Whether a loop that ends by a condition reads a table of a period: what changes in steps may
+/// end it after other turns than the function does.
+pub fn has_periods_in_open_loops(graph: &Graph) -> bool {
+    let rates = rates(graph);
+    let open = |of: LoopId| {
+        let again = graph.loops.get(of.0 as usize).map(|l| l.again);
+        again.is_some_and(|again| graph.constant(again).is_none())
+    };
+    graph.ids().any(|id| {
+        let Node::Lookup { table, .. } = graph.node(id) else {
+            return false;
+        };
+        let table = graph.tables.get(table.0 as usize);
+        let period = table.is_some_and(|t| t.name == NAME && t.width.is_power_of_two());
+        period
+            && rates.rate(id).iter().any(|by| match by {
+                Dependence::Loop(of) | Dependence::Last(of) => open(*of),
+                _ => false,
+            })
+    })
 }
 
 /// Whether a graph reads such tables.
