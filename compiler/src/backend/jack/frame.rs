@@ -8,6 +8,7 @@ use super::logs::{has_signs, without_idle_signs};
 use super::making::making;
 use super::params::{checks, parameters};
 use super::statics::statics;
+use super::tidy::tidied;
 use super::{Document, Line, Subroutine, Text, line, subroutine};
 use crate::ir::graph::TableId;
 use crate::plan::Plan;
@@ -77,6 +78,7 @@ fn parts(plan: &Plan) -> Parts<'_> {
         all.extend(code.methods.iter_mut().map(|m| &mut m.lines));
         without_idle_signs(&signs, &mut all);
     }
+    tidied(&mut code, &mut drawing, &making);
     Parts {
         code,
         drawing,
