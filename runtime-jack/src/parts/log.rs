@@ -44,6 +44,20 @@ pub(crate) const DIFFERENCE: &str =
     }
 ";
 
+/// For the processor, which is quick to tell what is above 0.
+pub(crate) const SUM_BY_SIGN: &str = "    /** Of the sum of two values of one sign. */
+    function int sum(int a, int b) {
+        var int d;
+        let d = a - b;
+        if (d > 0) {
+            if (d < 4608) { return a + sums[d]; }
+            return a + Log.farSum(d);
+        }
+        if (d > (-4608)) { return b + sums[-d]; }
+        return b + Log.farSum(-d);
+    }
+";
+
 pub(crate) const LEFT: &str =
     "    /** What a value leaves where one is taken away whose logarithm is d less. */
     function int left(int a, int d) {
@@ -143,6 +157,14 @@ pub(crate) const HALF: &str = "    /** a / 2, rounded down: the logarithm of a r
 
     /** The same from 0 on. */
     function int halved(int a) {
+        var int h;
+        if (a > 4095) {
+            while (a > 4095) { let a = a - 4096; let h = h + 2048; }
+            if (a > 2047) { let a = a - 2048; let h = h + 1024; }
+            if (a > 1023) { let a = a - 1024; let h = h + 512; }
+            if (a > 511) { let a = a - 512; let h = h + 256; }
+            return h + halves[a];
+        }
         if (a < 2048) {
             if (a < 1024) {
                 if (a < 512) { return halves[a]; }
@@ -151,15 +173,12 @@ pub(crate) const HALF: &str = "    /** a / 2, rounded down: the logarithm of a r
             if (a < 1536) { return halves[a - 1024] + 512; }
             return halves[a - 1536] + 768;
         }
-        if (a < 4096) {
-            if (a < 3072) {
-                if (a < 2560) { return halves[a - 2048] + 1024; }
-                return halves[a - 2560] + 1280;
-            }
-            if (a < 3584) { return halves[a - 3072] + 1536; }
-            return halves[a - 3584] + 1792;
+        if (a < 3072) {
+            if (a < 2560) { return halves[a - 2048] + 1024; }
+            return halves[a - 2560] + 1280;
         }
-        return Log.halved(a - 4096) + 2048;
+        if (a < 3584) { return halves[a - 3072] + 1536; }
+        return halves[a - 3584] + 1792;
     }
 ";
 
@@ -202,11 +221,7 @@ pub(crate) const WHOLE: &str =
         if (a < 0) { return 0; }
         if (a > 3071) {
             if (a > 6143) {
-                if (a > 9215) {
-                    if (a > 15359) { return 32767; }
-                    let n = Log.whole(a - 1024);
-                    return n + n;
-                }
+                if (a > 9215) { return Log.manyWhole(a); }
                 if (a > 8191) { let n = 256; }
                 if (~(logs[n + 128] > a)) { let n = n + 128; }
                 if (~(logs[n + 64] > a)) { let n = n + 64; }
@@ -219,6 +234,21 @@ pub(crate) const WHOLE: &str =
         if (~(logs[n + 2] > a)) { let n = n + 2; }
         if (logs[n + 1] > a) { return n; }
         return n + 1;
+    }
+
+    /** The same from 512 on. */
+    function int manyWhole(int a) {
+        var int n, step, doubled;
+        if (a > 15359) { return 32767; }
+        while (a > 9215) { let a = a - 1024; let doubled = doubled + 1; }
+        let n = 256;
+        let step = 128;
+        while (step > 0) {
+            if (~(logs[n + step] > a)) { let n = n + step; }
+            let step = halves[step];
+        }
+        while (doubled > 0) { let n = n + n; let doubled = doubled - 1; }
+        return n;
     }
 ";
 

@@ -14,11 +14,17 @@ use crate::ir::graph::TableId;
 use crate::plan::Plan;
 use drawing::drawing;
 use slowlight_routine::Format;
+use slowlight_runtime_jack::log::on_processor;
 use slowlight_runtime_jack::{classes, classes_for_processor, has_init};
 use std::collections::BTreeSet;
 
 /// Writes a plan down as the classes of a program, `Main` first.
 pub(in crate::backend) fn program(plan: &Plan) -> Vec<Document> {
+    let mut own = plan.statics.then(|| plan.clone());
+    for routine in own.iter_mut().flat_map(|own| &mut own.routines) {
+        *routine = routine.map(on_processor);
+    }
+    let plan = own.as_ref().unwrap_or(plan);
     let Parts {
         code,
         drawing,
