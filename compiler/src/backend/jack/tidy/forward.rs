@@ -125,20 +125,7 @@ impl Moved {
         let Some(said) = remark.strip_prefix(" // ") else {
             return String::new();
         };
-        let mut all = String::from(" // ");
-        let mut rest = said;
-        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        while let Some(start) = rest.find(is_part) {
-            let word = rest[start..].split(|c| !is_part(c)).next().unwrap_or_default();
-            all += &rest[..start];
-            all += &match word == self.name {
-                true if start == 0 || !rest[..start].ends_with('(') => term(&self.said),
-                true => self.said.clone(),
-                false => word.to_owned(),
-            };
-            rest = &rest[start + word.len()..];
-        }
-        all + rest
+        format!(" // {}", renamed(said, &self.name, &self.said))
     }
 }
 

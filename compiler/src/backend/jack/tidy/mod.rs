@@ -2,13 +2,16 @@
 //! are read once, a `not` that the other arm saves. Then long ones are divided into methods,
 //! as the web IDE slows down on long subroutines.
 
+mod copies;
 mod forward;
+mod signs;
 mod thread;
 mod tree;
 
 use super::code::{Code, Method};
 use super::{Line, Subroutine, line};
 use std::collections::BTreeSet;
+use copies::Copies;
 use tree::{Counts, Item};
 
 /// Lines that a subroutine holds at most before it is divided.
@@ -26,12 +29,25 @@ pub(super) fn tidied(code: &mut Code, drawing: &mut [Subroutine], making: &[Subr
     trees.extend(lines.into_iter().map(tree::parsed));
 
     let counts = counts(&trees, making);
+    let made = Counts::of(making.iter().flat_map(|s| &s.body));
+    let once = |name: &str| {
+        counts.get(name)[1] == 1 && made.get(name) == [0, 0] && code.known.contains(name)
+    };
+    let mut copies = Copies::default();
+    trees.iter_mut().for_each(|tree| copies.take(tree, &once));
+    trees.iter_mut().for_each(|tree| copies.put(tree));
     trees.iter_mut().for_each(|tree| thread::threaded(tree, &counts));
     let counts = self::counts(&trees, making);
     let may = |name: &str| counts.get(name) == [1, 1] && code.known.contains(name);
     let mut gone = BTreeSet::new();
     let all = trees.iter_mut();
     all.for_each(|tree| forward::substituted(tree, &may, &mut gone));
+    let signs = code.names.signs();
+    let mut arrays: BTreeSet<String> = code.columns().into_iter().collect();
+    arrays.extend(code.names.tables().map(|(_, name)| name.to_owned()));
+    let of_array = |name: &str| name.strip_suffix("_plus").is_some_and(|of| arrays.contains(of));
+    let is_sign = |name: &str| signs.contains(name) || code.logs() && of_array(name);
+    trees.iter_mut().for_each(|tree| signs::simplified(tree, &is_sign));
 
     let mut trees = trees.into_iter();
     for (subroutine, tree) in drawing.iter_mut().zip(&mut trees) {

@@ -239,3 +239,22 @@ pub(super) fn negated(condition: &str) -> String {
         _ => format!("~{}", term(condition)),
     }
 }
+
+/// A remark in which a name is said in another way.
+pub(super) fn renamed(remark: &str, name: &str, said: &str) -> String {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let (mut all, mut rest) = (String::new(), remark);
+    while let Some(start) = rest.find(is_part) {
+        let (before, from) = rest.split_at(start);
+        let end = from.find(|c| !is_part(c)).unwrap_or(from.len());
+        let (word, behind) = from.split_at(end);
+        all += before;
+        all += &match word == name {
+            true if all.ends_with('(') && behind.starts_with(')') => said.to_owned(),
+            true => term(said),
+            false => word.to_owned(),
+        };
+        rest = behind;
+    }
+    all + rest
+}
