@@ -3,9 +3,9 @@
 use crate::INT as I;
 use crate::model::{int, int_bits, wrap};
 use crate::routines::{INTS, call, sum};
-use slowlight_routine::log::{LOG as R, known_sign};
 use slowlight_routine::log::domains::*;
 use slowlight_routine::log::model::{self, Log, Log as Real};
+use slowlight_routine::log::{LOG as R, known_sign};
 use slowlight_routine::{Error, Form, Format, Op, Range, Routine, everywhere, joined};
 
 const B: Format = Format::Bool;
@@ -90,8 +90,15 @@ const REALS: &[Routine] = &[
 macro_rules! unlike {
     ($first:literal, $second:literal, $left:literal) => {
         concat!(
-            "if ({0} < {1}) {\nlet {r} = ", $left, "({1}, {1} - {0});\nlet {r+} = ", $second,
-            ";\n}\nelse {\nlet {r} = ", $left, "({0}, {0} - {1});\nlet {r+} = ", $first, ";\n}"
+            "if ({0} < {1}) {\nlet {r} = ",
+            $left,
+            "({1}, {1} - {0});\nlet {r+} = ",
+            $second,
+            ";\n}\nelse {\nlet {r} = ",
+            $left,
+            "({0}, {0} - {1});\nlet {r+} = ",
+            $first,
+            ";\n}"
         )
     };
 }

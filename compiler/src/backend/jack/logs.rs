@@ -116,7 +116,7 @@ impl Code<'_> {
             if text.contains("{r+}") {
                 text = text.replace("{r+}", &self.sign_of(&home));
             }
-            text = added(&text.replace("{r}", &home));
+            text = text.replace("{r}", &home);
             if sign {
                 text = simplified(&text);
                 let once = template.matches("let {r+} =").count() == 1;
@@ -208,19 +208,6 @@ fn filled(line: &str, operands: &[Operand]) -> String {
         }
     }
     text
-}
-
-/// A line in which what is below 0 is added rather than taken away.
-fn added(text: &str) -> String {
-    match text.split_once(" - (-") {
-        Some((before, after)) => match after.split_once(')') {
-            Some((number, after)) if number.bytes().all(|b| b.is_ascii_digit()) => {
-                format!("{before} + {number}{after}")
-            }
-            _ => text.to_owned(),
-        },
-        None => text.to_owned(),
-    }
 }
 
 /// An assignment of a sign, without what is known of it.

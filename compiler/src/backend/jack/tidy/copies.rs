@@ -88,6 +88,12 @@ fn copied(text: &str, once: &impl Fn(&str) -> bool) -> Option<(String, Copy)> {
     let said = remark.and_then(|remark| remark.strip_prefix(&format!("{name} = ")));
     (once(name) && (literal || other)).then(|| {
         let said = said.unwrap_or(value).to_owned();
-        (name.to_owned(), Copy { of: value.to_owned(), said })
+        (
+            name.to_owned(),
+            Copy {
+                of: value.to_owned(),
+                said,
+            },
+        )
     })
 }

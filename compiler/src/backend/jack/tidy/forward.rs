@@ -12,7 +12,13 @@ const WIDE: usize = 56;
 const LINE: usize = 96;
 /// Subroutines beside which `Log.plus()` has a meaning.
 const SIGNED: [&str; 8] = [
-    "Log.plus(", "Log.add(", "Log.mod(", "Log.sin(", "Log.quarterSine(", "Log.tan(", "Log.log(",
+    "Log.plus(",
+    "Log.add(",
+    "Log.mod(",
+    "Log.sin(",
+    "Log.quarterSine(",
+    "Log.tan(",
+    "Log.log(",
     "Log.pow(",
 ];
 
@@ -68,13 +74,17 @@ pub(super) fn substituted(
 fn moved(text: &str) -> Option<Moved> {
     let (name, value) = assignment(text)?;
     let calls = value.split('(').filter_map(|before| {
-        let call = before.rsplit(|c: char| !c.is_ascii_alphanumeric() && c != '.').next();
+        let call = before
+            .rsplit(|c: char| !c.is_ascii_alphanumeric() && c != '.')
+            .next();
         call.filter(|call| call.contains('.'))
     });
     let pure = |call: &str| {
         let class = call.split('.').next().unwrap_or_default();
         matches!(class, "Log" | "Int" | "Fixed" | "Float" | "Math")
-            && !SIGNED.iter().any(|signed| signed.trim_end_matches('(') == call)
+            && !SIGNED
+                .iter()
+                .any(|signed| signed.trim_end_matches('(') == call)
     };
     if value.len() > WIDE || value.contains('"') || !calls.into_iter().all(pure) {
         return None;
@@ -85,7 +95,9 @@ fn moved(text: &str) -> Option<Moved> {
         name: name.to_owned(),
         value: value.to_owned(),
         said: said.unwrap_or(value).to_owned(),
-        reads: variables(value).map(|(_, word, _)| word.to_owned()).collect(),
+        reads: variables(value)
+            .map(|(_, word, _)| word.to_owned())
+            .collect(),
     })
 }
 

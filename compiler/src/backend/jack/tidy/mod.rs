@@ -4,14 +4,15 @@
 
 mod copies;
 mod forward;
+mod minus;
 mod signs;
 mod thread;
 mod tree;
 
 use super::code::{Code, Method};
 use super::{Line, Subroutine, line};
-use std::collections::BTreeSet;
 use copies::Copies;
+use std::collections::BTreeSet;
 use tree::{Counts, Item};
 
 /// Lines that a subroutine holds at most before it is divided.
@@ -36,7 +37,9 @@ pub(super) fn tidied(code: &mut Code, drawing: &mut [Subroutine], making: &[Subr
     let mut copies = Copies::default();
     trees.iter_mut().for_each(|tree| copies.take(tree, &once));
     trees.iter_mut().for_each(|tree| copies.put(tree));
-    trees.iter_mut().for_each(|tree| thread::threaded(tree, &counts));
+    trees
+        .iter_mut()
+        .for_each(|tree| thread::threaded(tree, &counts));
     let counts = self::counts(&trees, making);
     let may = |name: &str| counts.get(name) == [1, 1] && code.known.contains(name);
     let mut gone = BTreeSet::new();
@@ -45,9 +48,15 @@ pub(super) fn tidied(code: &mut Code, drawing: &mut [Subroutine], making: &[Subr
     let signs = code.names.signs();
     let mut arrays: BTreeSet<String> = code.columns().into_iter().collect();
     arrays.extend(code.names.tables().map(|(_, name)| name.to_owned()));
-    let of_array = |name: &str| name.strip_suffix("_plus").is_some_and(|of| arrays.contains(of));
+    let of_array = |name: &str| {
+        name.strip_suffix("_plus")
+            .is_some_and(|of| arrays.contains(of))
+    };
     let is_sign = |name: &str| signs.contains(name) || code.logs() && of_array(name);
-    trees.iter_mut().for_each(|tree| signs::simplified(tree, &is_sign));
+    for tree in &mut trees {
+        signs::simplified(tree, &is_sign);
+        minus::subtracted(tree);
+    }
 
     let mut trees = trees.into_iter();
     for (subroutine, tree) in drawing.iter_mut().zip(&mut trees) {
@@ -65,7 +74,8 @@ pub(super) fn tidied(code: &mut Code, drawing: &mut [Subroutine], making: &[Subr
     let bodies = drawing.iter().chain(making).flat_map(|s| &s.body);
     let left = Counts::of(bodies.chain(code.methods.iter().flat_map(|m| &m.lines)));
     let is_left = |name: &str| left.get(name) != [0, 0];
-    code.written.retain(|(name, _)| is_left(name) || !code.known.contains(name));
+    code.written
+        .retain(|(name, _)| is_left(name) || !code.known.contains(name));
 }
 
 /// What a subroutine has for itself, so that it cannot be divided.

@@ -47,7 +47,11 @@ fn shorter(text: &str, is_sign: &impl Fn(&str) -> bool) -> Option<String> {
 
 impl<'t> Parity<'t> {
     /// `a = b`, or one of these; what comes behind it.
-    fn equation(text: &'t str, is_sign: &impl Fn(&str) -> bool, depth: u8) -> Option<(Self, &'t str)> {
+    fn equation(
+        text: &'t str,
+        is_sign: &impl Fn(&str) -> bool,
+        depth: u8,
+    ) -> Option<(Self, &'t str)> {
         let (mut first, mut rest) = Parity::term(text, is_sign, depth)?;
         if let Some(behind) = rest.strip_prefix(" = ") {
             let (second, behind) = Parity::term(behind, is_sign, depth)?;
@@ -81,7 +85,11 @@ impl<'t> Parity<'t> {
         let (name, mut rest) = text.split_at(end);
         let mut sign = name;
         if let Some(index) = rest.strip_prefix('[') {
-            let end = end + 2 + index.find(|c| !is_part(c)).filter(|at| index[*at..].starts_with(']'))?;
+            let end = end
+                + 2
+                + index
+                    .find(|c| !is_part(c))
+                    .filter(|at| index[*at..].starts_with(']'))?;
             (sign, rest) = text.split_at(end);
         }
         let (signs, holds) = match name {

@@ -155,7 +155,8 @@ fn put(item: &mut Item, branch: &Branch) {
             }
             Some(mut last) => {
                 put(&mut last, branch);
-                let idle = matches!(&last, Item::If { yes, no, .. } if yes.is_empty() && no.is_empty());
+                let idle =
+                    matches!(&last, Item::If { yes, no, .. } if yes.is_empty() && no.is_empty());
                 arm.extend((!idle).then_some(last));
             }
             None => {}
