@@ -19,7 +19,7 @@ struct Copy {
 pub(super) struct Copies(BTreeMap<String, Copy>);
 
 impl Copies {
-    /// Takes the copies out of statements; `once` says of which variables there may be any.
+    /// Takes the copies out of statements, and what copies itself; `once` says of which variables there may be any.
     pub fn take(&mut self, items: &mut Vec<Item>, once: &impl Fn(&str) -> bool) {
         items.retain_mut(|item| match item {
             Item::Line(line) => match copied(&line.text, once) {
@@ -27,7 +27,7 @@ impl Copies {
                     self.0.insert(name, copy);
                     false
                 }
-                None => true,
+                None => !assignment(&line.text).is_some_and(|(name, value)| name == value),
             },
             Item::While { body, .. } => {
                 self.take(body, once);

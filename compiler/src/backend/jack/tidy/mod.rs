@@ -91,7 +91,8 @@ fn counts(trees: &[Vec<Item>], making: &[Subroutine]) -> Counts {
 /// Statements, of which as many as make a subroutine are methods named after `name`.
 fn divided(code: &mut Code, items: Vec<Item>, name: &str) -> Vec<Item> {
     let (mut whole, mut part) = (Vec::new(), Vec::new());
-    for mut item in items {
+    let mut items = items.into_iter().peekable();
+    while let Some(mut item) = items.next() {
         match &mut item {
             Item::Line(_) => {}
             Item::While { body, .. } => inner(code, body, name),
@@ -101,7 +102,9 @@ fn divided(code: &mut Code, items: Vec<Item>, name: &str) -> Vec<Item> {
             }
         }
         part.push(item);
-        if tree::length(&part) > LONG {
+        // An arm in a line of its own stays with the one before.
+        let goes_on = |next: &Item| matches!(next, Item::Line(l) if l.text.starts_with("else {"));
+        if tree::length(&part) > LONG && !items.peek().is_some_and(goes_on) {
             whole.push(outlined(code, std::mem::take(&mut part), name));
         }
     }
