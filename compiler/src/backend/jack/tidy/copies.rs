@@ -27,7 +27,7 @@ impl Copies {
                     self.0.insert(name, copy);
                     false
                 }
-                None => !assignment(&line.text).is_some_and(|(name, value)| name == value),
+                None => assignment(&line.text).is_none_or(|(name, value)| name != value),
             },
             Item::While { body, .. } => {
                 self.take(body, once);

@@ -21,6 +21,8 @@ const LONG: usize = 60;
 /// Tidies what draws; `making` may read what that assigns.
 pub(super) fn tidied(code: &mut Code, drawing: &mut [Subroutine], making: &[Subroutine]) {
     let methods = std::mem::take(&mut code.methods);
+    // Called from several places, they assign the same again and again.
+    let called = Counts::of(methods.iter().flat_map(|m| &m.lines));
     let bodies = drawing.iter_mut().map(|s| std::mem::take(&mut s.body));
     let mut trees: Vec<Vec<Item>> = bodies.map(tree::parsed).collect();
     let (heads, lines): (Vec<_>, Vec<_>) = methods
@@ -32,7 +34,8 @@ pub(super) fn tidied(code: &mut Code, drawing: &mut [Subroutine], making: &[Subr
     let counts = counts(&trees, making);
     let made = Counts::of(making.iter().flat_map(|s| &s.body));
     let once = |name: &str| {
-        counts.get(name)[1] == 1 && made.get(name) == [0, 0] && code.known.contains(name)
+        let elsewhere = made.get(name) != [0, 0] || called.get(name)[1] > 0;
+        counts.get(name)[1] == 1 && !elsewhere && code.known.contains(name)
     };
     let mut copies = Copies::default();
     trees.iter_mut().for_each(|tree| copies.take(tree, &once));
