@@ -12,9 +12,12 @@
 //! Whoever writes them leaves out a sign that the ranges know. The result may share the
 //! variables of an argument.
 
+mod processor;
 mod routines;
 #[cfg(test)]
 mod tests;
+
+pub use processor::on_processor;
 
 use crate::{INT, param_digits, parts};
 use slowlight_routine::log::model::{LEAST, Log};

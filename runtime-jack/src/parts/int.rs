@@ -12,37 +12,35 @@ pub(crate) const MAGNITUDE: &str = "    /** The magnitude of i; -32768 counts as
 
 pub(crate) const ADD: &str = "    /** a + b, from -32767 to 32767 */
     function int add(int a, int b) {
-        var int c;
-        let c = a + b;
         if (a < 0) {
             if (b < 0) {
-                if ((c > (-1)) | (c = (-c))) { return -32767; }
+                let a = a + b;
+                if ((-a) > 0) { return a; }
+                return -32767;
             }
+            return a + b;
         }
-        else {
-            if (~(b < 0)) {
-                if (c < 0) { return 32767; }
-            }
-        }
-        return c;
+        if (b < 0) { return a + b; }
+        let a = a + b;
+        if (a < 0) { return 32767; }
+        return a;
     }
 ";
 
 pub(crate) const SUB: &str = "    /** a - b, from -32767 to 32767 */
     function int sub(int a, int b) {
-        var int c;
-        let c = a - b;
         if (a < 0) {
-            if (~(b < 0)) {
-                if ((c > (-1)) | (c = (-c))) { return -32767; }
-            }
+            if (b < 0) { return a - b; }
+            let a = a - b;
+            if ((-a) > 0) { return a; }
+            return -32767;
         }
-        else {
-            if (b < 0) {
-                if (c < 0) { return 32767; }
-            }
+        if (b < 0) {
+            let a = a - b;
+            if (a < 0) { return 32767; }
+            return a;
         }
-        return c;
+        return a - b;
     }
 ";
 

@@ -13,6 +13,41 @@ pub(crate) const HEAD: &str = "    /**
 pub(crate) const SUM: &str = "    /** Of the sum of two values of one sign. */
     function int sum(int a, int b) {
         var int d;
+        if (a < b) {
+            let d = b - a;
+            if (d < 4608) { return b + sums[d]; }
+            return b + Log.farSum(d);
+        }
+        let d = a - b;
+        if (d < 4608) { return a + sums[d]; }
+        return a + Log.farSum(d);
+    }
+";
+
+pub(crate) const DIFFERENCE: &str =
+    "    /** Of the difference of two values of one sign, the greater less the other. */
+    function int difference(int a, int b) {
+        var int d;
+        let d = a - b;
+        if (d < 0) {
+            let d = -d;
+            let a = b;
+        }
+        if (d < 4608) {
+            let d = differences[d];
+            if (d < (a + 13312)) { return a - d; }
+            return -13312;
+        }
+        let a = a - Log.farDifference(d);
+        if (a > (-13312)) { return a; }
+        return -13312;
+    }
+";
+
+/// For the processor, which is quick to tell what is above 0.
+pub(crate) const SUM_BY_SIGN: &str = "    /** Of the sum of two values of one sign. */
+    function int sum(int a, int b) {
+        var int d;
         let d = a - b;
         if (d > 0) {
             if (d < 4608) { return a + sums[d]; }
@@ -23,27 +58,34 @@ pub(crate) const SUM: &str = "    /** Of the sum of two values of one sign. */
     }
 ";
 
-pub(crate) const DIFFERENCE: &str =
-    "    /** Of the difference of two values of one sign, the greater less the other. */
-    function int difference(int a, int b) {
-        var int d;
-        let d = a - b;
-        if (d > 0) {
-            if (d < 4608) { let a = a - differences[d]; }
-            else { let a = a - Log.farDifference(d); }
+pub(crate) const LEFT: &str =
+    "    /** What a value leaves where one is taken away whose logarithm is d less. */
+    function int left(int a, int d) {
+        if (d < 4608) {
+            // The first entry is more than any a has above the least.
+            let d = differences[d];
+            if (d < (a + 13312)) { return a - d; }
+            return -13312;
         }
-        else {
-            if (d = 0) { return -13312; }
-            if (d > (-4608)) { let a = b - differences[-d]; }
-            else { let a = b - Log.farDifference(-d); }
-        }
+        let a = a - Log.farDifference(d);
         if (a > (-13312)) { return a; }
         return -13312;
     }
 ";
 
+pub(crate) const REST: &str =
+    "    /** The same of a value so large that what it leaves is more than 0 but where d is 0. */
+    function int rest(int a, int d) {
+        if (d < 4608) {
+            if (d > 0) { return a - differences[d]; }
+            return -13312;
+        }
+        return a - Log.farDifference(d);
+    }
+";
+
 pub(crate) const LEAVE: &str =
-    "    /** The same where the greater is so large that what is left is more than 0. */
+    "    /** Of the difference where the greater is so large that what is left is more than 0. */
     function int leave(int a, int b) {
         var int d;
         let d = a - b;
@@ -116,11 +158,27 @@ pub(crate) const HALF: &str = "    /** a / 2, rounded down: the logarithm of a r
     /** The same from 0 on. */
     function int halved(int a) {
         var int h;
-        while (a > 4095) { let a = a - 4096; let h = h + 2048; }
-        if (a > 2047) { let a = a - 2048; let h = h + 1024; }
-        if (a > 1023) { let a = a - 1024; let h = h + 512; }
-        if (a > 511) { let a = a - 512; let h = h + 256; }
-        return h + halves[a];
+        if (a > 4095) {
+            while (a > 4095) { let a = a - 4096; let h = h + 2048; }
+            if (a > 2047) { let a = a - 2048; let h = h + 1024; }
+            if (a > 1023) { let a = a - 1024; let h = h + 512; }
+            if (a > 511) { let a = a - 512; let h = h + 256; }
+            return h + halves[a];
+        }
+        if (a < 2048) {
+            if (a < 1024) {
+                if (a < 512) { return halves[a]; }
+                return halves[a - 512] + 256;
+            }
+            if (a < 1536) { return halves[a - 1024] + 512; }
+            return halves[a - 1536] + 768;
+        }
+        if (a < 3072) {
+            if (a < 2560) { return halves[a - 2048] + 1024; }
+            return halves[a - 2560] + 1280;
+        }
+        if (a < 3584) { return halves[a - 3072] + 1536; }
+        return halves[a - 3584] + 1792;
     }
 ";
 
@@ -159,24 +217,37 @@ pub(crate) const FROM_INT: &str = "    /** Of a whole number's magnitude. */
 pub(crate) const WHOLE: &str =
     "    /** The whole part of a magnitude: 0 below 1, of nine bits from 512 on. */
     function int whole(int a) {
-        var int n, step, doubled;
+        var int n;
         if (a < 0) { return 0; }
-        if (a > 15359) { return 32767; }
-        while (a > 9215) {
-            let a = a - 1024;
-            let doubled = doubled + 1;
+        if (a > 3071) {
+            if (a > 6143) {
+                if (a > 9215) { return Log.manyWhole(a); }
+                if (a > 8191) { let n = 256; }
+                if (~(logs[n + 128] > a)) { let n = n + 128; }
+                if (~(logs[n + 64] > a)) { let n = n + 64; }
+            }
+            if (~(logs[n + 32] > a)) { let n = n + 32; }
+            if (~(logs[n + 16] > a)) { let n = n + 16; }
+            if (~(logs[n + 8] > a)) { let n = n + 8; }
         }
-        let n = 1;
-        while (~(logs[n + n] > a)) { let n = n + n; }
-        let step = halves[n];
+        if (~(logs[n + 4] > a)) { let n = n + 4; }
+        if (~(logs[n + 2] > a)) { let n = n + 2; }
+        if (logs[n + 1] > a) { return n; }
+        return n + 1;
+    }
+
+    /** The same from 512 on. */
+    function int manyWhole(int a) {
+        var int n, step, doubled;
+        if (a > 15359) { return 32767; }
+        while (a > 9215) { let a = a - 1024; let doubled = doubled + 1; }
+        let n = 256;
+        let step = 128;
         while (step > 0) {
             if (~(logs[n + step] > a)) { let n = n + step; }
             let step = halves[step];
         }
-        while (doubled > 0) {
-            let n = n + n;
-            let doubled = doubled - 1;
-        }
+        while (doubled > 0) { let n = n + n; let doubled = doubled - 1; }
         return n;
     }
 ";

@@ -33,6 +33,9 @@ pub(crate) const MAKE_POWERS: &str = "    static Array powers;
             if ((e - last) > 95) { let r = r + 1; let last = last + 96; }
             let j = j + 1;
         }
+        // The next is 32768. No word is more than the one behind it.
+        let powers[2048] = 32767;
+        let powers[2049] = 32767;
         return;
     }
 ";
@@ -42,7 +45,7 @@ pub(crate) const MAKE_WHITE: &str =
      *  of the web IDE takes the upper half of the heap with it. */
     function void makeWhite() {
         var int j;
-        let j = 2048;
+        let j = 2050;
         while (j > 0) {
             let j = j - 1;
             let powers[j] = 0;
@@ -96,34 +99,24 @@ pub(crate) const MAKE_SUMS: &str = "    static Array sums;
     /** What the greater summand's logarithm grows by where the other's is d less:
      *  1024 * log2(1 + 2^(-d/1024)). */
     function void makeSums() {
-        var int d, r, octave, k, y;
+        var int d, k, at, octave, grown;
         let sums = Array.new(4608);
         let k = 1024;
+        let at = 2048;
+        let octave = 1;
+        let grown = powers[2047] - 16384;
         while (d < 4608) {
-            if (r = 1024) { let r = 0; let octave = octave + 1; }
-            let y = Log.powerLess(r);
-            while (Log.above((powers[k + k - 1]) - 16384, octave, y)) { let k = k - 1; }
+            // at is where 32768 * 2^(-d/1024) stands, times 2 for each octave.
+            if (at = 0) { let at = 2048; let octave = octave + octave; let grown = grown + grown; }
+            while (grown > (powers[at] - grown)) {
+                let k = k - 1;
+                let grown = (powers[k + k - 1] - 16384) * octave;
+            }
             let sums[d] = k;
             let d = d + 1;
-            let r = r + 1;
+            let at = at - 2;
         }
         return;
-    }
-";
-
-pub(crate) const POWER_LESS: &str = "    /** 32768 * 2^(-r/1024), or 32767. */
-    function int powerLess(int r) {
-        if (r = 0) { return 32767; }
-        return powers[2048 - r - r];
-    }
-
-    /** Whether a * 2^(octave + 1) > y. */
-    function boolean above(int a, int octave, int y) {
-        while (octave > 0) {
-            let a = a + a;
-            let octave = octave - 1;
-        }
-        return a > (y - a);
     }
 ";
 
@@ -132,32 +125,26 @@ pub(crate) const MAKE_DIFFERENCES: &str = "    static Array differences;
     /** What the greater logarithm shrinks by where one that is d less is taken away:
      *  -1024 * log2(1 - 2^(-d/1024)). */
     function void makeDifferences() {
-        var int d, k, squares, cut, twice, octaves, left, doubled;
+        var int d, k, squares, cut, left, octaves;
         let differences = Array.new(4608);
+        let differences[0] = 32767;
         let squares = 8866;
-        let k = 10783;
         let d = 1;
         while (d < 256) {
             let squares = squares + d + d - 1;
             if (squares > 17731) { let squares = squares - 17731; let cut = cut + 1; }
-            let twice = 21563 - logs[d] - logs[d] + d - cut;
-            while ((k + k - 1) > twice) { let k = k - 1; }
-            let differences[d] = k;
+            let differences[d] = ((21564 - logs[d]) - logs[d] + d - cut) / 2;
             let d = d + 1;
         }
-        let octaves = 9;
+        let octaves = 2048;
+        let k = 1024;
         while (d < 1024) {
-            let left = 32767 - Log.powerLess(d) + 1;
-            let doubled = 0;
-            while (left < 16384) { let left = left + left; let doubled = doubled + 1; }
-            if (doubled < octaves) {
-                let octaves = doubled;
-                let k = 1024;
-            }
-            while (Log.stillLeft(left, k)) { let k = k - 1; }
-            let differences[d] = k;
-            let doubled = octaves;
-            while (doubled > 0) { let differences[d] = differences[d] + 1024; let doubled = doubled - 1; }
+            let left = (32767 - powers[2048 - d - d]) + 1;
+            if (left < 8192) { let left = left + left; }
+            else { if (octaves = 2048) { let octaves = 1024; let k = 1024; } }
+            let left = left + left;
+            while (left > powers[2049 - k - k]) { let k = k - 1; }
+            let differences[d] = k + octaves;
             let d = d + 1;
         }
         do Log.makeFurtherDifferences();
@@ -166,29 +153,22 @@ pub(crate) const MAKE_DIFFERENCES: &str = "    static Array differences;
 
     /** The same from an octave on. */
     function void makeFurtherDifferences() {
-        var int d, r, octave, k, y;
+        var int d, k, at, octave, taken;
         let k = 1024;
         let d = 1024;
+        let at = 2048;
+        let octave = 1;
+        let taken = (32767 - powers[1]) + 1;
         while (d < 4608) {
-            if (r = 1024) { let r = 0; let octave = octave + 1; }
-            let y = Log.powerLess(r);
-            while (Log.furtherLeft(k, octave, y)) { let k = k - 1; }
+            if (at = 0) { let at = 2048; let octave = octave + octave; let taken = taken + taken; }
+            while (taken > (powers[at] - taken)) {
+                let k = k - 1;
+                let taken = ((32767 - powers[2049 - k - k]) + 1) * octave;
+            }
             let differences[d] = k;
             let d = d + 1;
-            let r = r + 1;
+            let at = at - 2;
         }
         return;
-    }
-
-    /** Whether 2^(-k/1024) is less than what is left, half a unit aside. */
-    function boolean stillLeft(int left, int k) {
-        if (k = 0) { return false; }
-        return left > powers[2049 - k - k];
-    }
-
-    /** The same where that is compared with what is taken away, y / 2^(octave + 1). */
-    function boolean furtherLeft(int k, int octave, int y) {
-        if (k = 0) { return false; }
-        return Log.above((32767 - powers[2049 - k - k]) + 1, octave, y);
     }
 ";

@@ -73,22 +73,9 @@ impl<'p> Code<'p> {
         }
     }
 
-    /// The body of a subroutine that runs a block; long ones are divided into
-    /// methods named after `name`.
-    pub fn body(&mut self, block: &Block, name: &str) -> Vec<Line> {
-        let mut whole = Vec::new();
-        let mut part = Vec::new();
-        for statement in block {
-            part.extend(self.apart(|code| code.statement(statement, name)));
-            if part.len() > LONG {
-                whole.push(self.outlined(std::mem::take(&mut part), name));
-            }
-        }
-        if !whole.is_empty() && part.len() > LONG / 4 {
-            whole.push(self.outlined(std::mem::take(&mut part), name));
-        }
-        whole.extend(part);
-        whole
+    /// The body of a subroutine that runs a block.
+    pub fn body(&mut self, block: &Block) -> Vec<Line> {
+        self.apart(|code| code.block(block))
     }
 
     /// Lines divided into methods where they are too many.
@@ -109,7 +96,7 @@ impl<'p> Code<'p> {
         for (k, subroutine) in plan.tree.subroutines.iter().enumerate() {
             let id = SubroutineId(k as u32);
             let name = self.names.subroutine(id);
-            let lines = self.body(&subroutine.body, &name);
+            let lines = self.body(&subroutine.body);
             let calls = plan.tree.calls(id);
             let about = format!("{}, called from {calls} places.", subroutine.label());
             self.methods.push(Method { about, name, lines });
@@ -117,7 +104,7 @@ impl<'p> Code<'p> {
     }
 
     /// Makes a method of lines; answers the line that calls it.
-    fn outlined(&mut self, lines: Vec<Line>, name: &str) -> Line {
+    pub fn outlined(&mut self, lines: Vec<Line>, name: &str) -> Line {
         let span = lines.iter().find_map(|line| line.span);
         let name = self.names.fresh(&format!("{name}Part"));
         let call = format!("do {name}();");
@@ -141,18 +128,11 @@ impl<'p> Code<'p> {
         std::mem::replace(&mut self.text, outer).lines
     }
 
-    /// A block inside a statement.
-    fn block(&mut self, block: &Block, name: &str) {
-        let lines = self.body(block, name);
-        if lines.len() > LONG {
-            let call = self.outlined(lines, name);
-            self.text.append(vec![call]);
-        } else {
-            self.text.append(lines);
-        }
+    fn block(&mut self, block: &Block) {
+        block.iter().for_each(|statement| self.statement(statement));
     }
 
-    fn statement(&mut self, statement: &Statement, name: &str) {
+    fn statement(&mut self, statement: &Statement) {
         self.text.span = Some(statement.span(&self.plan.graph, &self.plan.tree));
         match statement {
             Statement::Let(id) => self.compute(*id),
@@ -163,26 +143,20 @@ impl<'p> Code<'p> {
             Statement::If { cond, yes, no } => {
                 let cond = self.read(*cond);
                 // An arm of copies that are none is empty.
-                let [yes, no] = [yes, no].map(|arm| self.apart(|code| code.block(arm, name)));
-                match (yes.is_empty(), no.is_empty()) {
-                    (true, true) => return,
-                    (true, false) => {
-                        self.text.open(format!("if (~{}) {{", cond.at(TERM)));
-                        self.text.append(no);
-                    }
-                    (false, none) => {
-                        self.text.open(format!("if ({}) {{", cond.text));
-                        self.text.append(yes);
-                        if !none {
-                            self.text.close("}");
-                            self.text.open("else {");
-                            self.text.append(no);
-                        }
-                    }
+                let [yes, no] = [yes, no].map(|arm| self.body(arm));
+                if yes.is_empty() && no.is_empty() {
+                    return;
+                }
+                self.text.open(format!("if ({}) {{", cond.text));
+                self.text.append(yes);
+                if !no.is_empty() {
+                    self.text.close("}");
+                    self.text.open("else {");
+                    self.text.append(no);
                 }
                 self.text.close("}");
             }
-            Statement::Loop(turns) => self.repeat(turns, name),
+            Statement::Loop(turns) => self.repeat(turns),
             Statement::Call(id) => {
                 let name = self.names.subroutine(*id);
                 self.text.line(format!("do {name}();"));
@@ -192,35 +166,39 @@ impl<'p> Code<'p> {
 
     /// A loop: the counter reaches the greatest number of turns also where the
     /// loop ends by itself. It may pass 32767; being equal does not mind.
-    fn repeat(&mut self, turns: &Turns, name: &str) {
+    fn repeat(&mut self, turns: &Turns) {
         let counter = self.names.turns(turns.of);
-        let most = self
+        let greatest = self
             .plan
             .graph
             .loops
             .get(turns.of.0 as usize)
             .map_or(1, |l| l.max);
-        let most = int(i32::from(most as u16 as i16)).at(TERM);
-        self.block(&turns.start, name);
+        let most = int(i32::from(greatest as u16 as i16)).at(TERM);
+        self.block(&turns.start);
         self.text.line(format!("let {counter} = 0;"));
-        self.text.open(format!("while (~({counter} = {most})) {{"));
-        self.block(&turns.body, name);
+        self.text.open(match u16::try_from(greatest) {
+            Ok(..=0x7FFF) => format!("while ({counter} < {most}) {{"),
+            _ => format!("while (~({counter} = {most})) {{"),
+        });
+        self.block(&turns.body);
         let ends = !turns.always(&self.plan.graph);
         if ends {
             let again = self.read(turns.again);
             self.text.open(format!("if ({}) {{", again.text));
         }
-        self.block(&turns.next, name);
+        self.block(&turns.next);
         self.text.line(format!("let {counter} = {counter} + 1;"));
-        if !turns.otherwise.is_empty() {
+        let otherwise = self.body(&turns.otherwise);
+        if !otherwise.is_empty() {
             self.text.open(format!("if ({counter} = {most}) {{"));
-            self.block(&turns.otherwise, name);
+            self.text.append(otherwise);
             self.text.close("}");
         }
         if ends {
             self.text.close("}");
             self.text.open("else {");
-            self.block(&turns.done, name);
+            self.block(&turns.done);
             self.text.line(format!("let {counter} = {most};"));
             self.text.close("}");
         }

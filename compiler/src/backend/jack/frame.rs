@@ -8,16 +8,23 @@ use super::logs::{has_signs, without_idle_signs};
 use super::making::making;
 use super::params::{checks, parameters};
 use super::statics::statics;
+use super::tidy::tidied;
 use super::{Document, Line, Subroutine, Text, line, subroutine};
 use crate::ir::graph::TableId;
 use crate::plan::Plan;
 use drawing::drawing;
 use slowlight_routine::Format;
+use slowlight_runtime_jack::log::on_processor;
 use slowlight_runtime_jack::{classes, classes_for_processor, has_init};
 use std::collections::BTreeSet;
 
 /// Writes a plan down as the classes of a program, `Main` first.
 pub(in crate::backend) fn program(plan: &Plan) -> Vec<Document> {
+    let mut own = plan.statics.then(|| plan.clone());
+    for routine in own.iter_mut().flat_map(|own| &mut own.routines) {
+        *routine = routine.map(on_processor);
+    }
+    let plan = own.as_ref().unwrap_or(plan);
     let Parts {
         code,
         drawing,
@@ -77,6 +84,7 @@ fn parts(plan: &Plan) -> Parts<'_> {
         all.extend(code.methods.iter_mut().map(|m| &mut m.lines));
         without_idle_signs(&signs, &mut all);
     }
+    tidied(&mut code, &mut drawing, &making);
     Parts {
         code,
         drawing,

@@ -19,16 +19,35 @@ pub(super) fn in_place(plan: &Plan, id: NodeId) -> [bool; 2] {
 }
 
 /// Whether no line of a template reads an operand, or its sign, behind one that writes the
-/// result's, and none is carried out again.
+/// result's, and none is carried out again. An arm is not behind the other.
 fn is_read_first(template: &str, k: usize) -> bool {
     let both = [(format!("{{{k}}}"), "{r}"), (format!("{{{k}+}}"), "{r+}")];
     let mut written = [false; 2];
-    for line in template.lines() {
+    // What was written before a block and in the arm before it; of the last one: before it
+    // and behind it.
+    let mut open: Vec<[[bool; 2]; 2]> = Vec::new();
+    let mut last = [[false; 2]; 2];
+    for line in template.lines().map(str::trim_start) {
+        match line {
+            "else {" => {
+                open.push(last);
+                [written, _] = last;
+            }
+            "}" => {
+                let [before, other] = open.pop().unwrap_or_default();
+                last = [before, written];
+                written = [0, 1].map(|of| written[of] || other[of]);
+            }
+            _ => {}
+        }
         for ((operand, result), written) in both.iter().zip(&mut written) {
-            if *written && line.contains(operand) || line.trim_start().starts_with("while") {
+            if *written && line.contains(operand) || line.starts_with("while") {
                 return false;
             }
             *written |= line.contains(&format!("let {result} ="));
+        }
+        if line.ends_with('{') && line != "else {" {
+            open.push([written, [false; 2]]);
         }
     }
     template.contains("let {r} =")
@@ -53,5 +72,8 @@ mod tests {
             0
         ));
         assert!(!is_read_first("do {r}.add({0}, {1})", 0));
+        let arms = "if (a) {\nlet {r} = {0};\n}\nelse {\nlet {r} = {1};\n}";
+        assert!(is_read_first(arms, 0) && is_read_first(arms, 1));
+        assert!(!is_read_first(&format!("{arms}\nlet {{r+}} = {{0}};"), 0));
     }
 }

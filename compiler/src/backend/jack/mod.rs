@@ -27,7 +27,7 @@
 //! - `object`: constants and params; `making`: what fills the fields at the start;
 //! - `steps`: what a picture that moves has between two pictures;
 //! - `frame`: the classes around; `canvas`: words of the screen; `spread`: error diffusion; `statics`: which values
-//!   are statics, for the processor.
+//!   are statics, for the processor; `tidy`: what is done to statements once they are written.
 
 mod canvas;
 mod code;
@@ -52,6 +52,7 @@ mod spread;
 mod starts;
 mod statics;
 mod steps;
+mod tidy;
 
 /// A subroutine under construction: what stands over it, its first line, its body.
 struct Subroutine {

@@ -71,7 +71,7 @@ fn keys(code: &Code) -> Vec<Line> {
 /// Computes next values, and gives them to the states.
 fn step(code: &mut Code) -> Vec<Line> {
     let plan = code.plan;
-    let mut lines = code.body(&plan.tree.step, "takeStep");
+    let mut lines = code.body(&plan.tree.step);
     let mut late = Vec::new();
     for (state, next) in plan.graph.steps() {
         // A state that another is given is kept before it changes.
@@ -83,7 +83,6 @@ fn step(code: &mut Code) -> Vec<Line> {
         lines.extend(now);
         late.extend(then);
     }
-    let mut lines = code.divided(lines, "takeStep");
     lines.extend(late);
     lines
 }

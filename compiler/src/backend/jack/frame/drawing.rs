@@ -77,10 +77,10 @@ fn down(y: &str, [first, last]: &[String; 2], spread: Option<&Spread>, text: &mu
 /// What is worked out once a picture, once a row, once a pixel.
 pub(super) fn drawing(code: &mut Code) -> Vec<Subroutine> {
     let plan = code.plan;
-    let frame = code.body(&plan.tree.frame, "drawPicture");
-    let column = code.body(&plan.tree.column, "drawColumn");
-    let row = code.body(&plan.tree.row, "drawRow");
-    let pixel = code.body(&plan.tree.pixel, "drawPixel");
+    let frame = code.body(&plan.tree.frame);
+    let column = code.body(&plan.tree.column);
+    let row = code.body(&plan.tree.row);
+    let pixel = code.body(&plan.tree.pixel);
     let steps = moves(code);
     code.subroutines();
     let ink = code.read(plan.graph.ink);
