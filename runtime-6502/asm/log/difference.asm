@@ -22,20 +22,21 @@ log_difference:
         rts
 log_difference_slow:
         iny                 ; the carry is set
-        bne log_difference_less_slow
+        bne log_difference_far
         adc #0
-        bne log_difference_less_slow
+        bne log_difference_far
 
 ; The same where that is below 0, and x = 1 where the two are equal.
 log_difference_less:
         eor #$ff
+log_difference_less_slow:   ; y is still as it was
         tax
         tya
         eor #$ff
         tay
         txa
         cmp #log_lost_pages
-        bcs log_difference_less_slow
+        bcs log_difference_far
         adc #>(log_lost)
 log_difference_both:
         sta lost_at+1

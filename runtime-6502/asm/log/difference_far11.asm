@@ -1,5 +1,5 @@
 ; Behind the pages with upper bytes.
-log_difference_less_slow:
+log_difference_far:
         cmp #48
         bcs log_difference_farther
         lsr

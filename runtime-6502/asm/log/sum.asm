@@ -25,22 +25,26 @@ log_sum_both:
 ; The same where y a is below 0: its complement is one less than its magnitude.
 log_sum_less:
         eor #$ff
-        tax
-        tya
-        eor #$ff
-        tay
-        txa
         cmp #log_sums_pages
         bcs log_sum_less_slow
         adc #>(log_sums+1)
         sta less_sums_at+1
         adc #log_pages
         sta less_sums_up+1
+        tya
+        eor #$ff
+        tay
         lda (less_sums_up),y
         tax
         lda (less_sums_at),y
         rts
+; y is still as it was, and the page is complemented.
 log_sum_less_slow:
+        tax
+        tya
+        eor #$ff
+        tay
+        txa
         iny                 ; the carry is set
         bne log_sum_slow
         adc #0

@@ -87,14 +87,14 @@ const TEN: &[Part] = parts!(
         terms("log_rest_high", super::tables::rest_high, 24),
         part("log_rest", asm!("rest"), &["log_page", "log_rest_first", "log_rest_low", "log_rest_high"], 40)
     ],
-    "log_rest", [78, 89, 142, 284, 279]
+    "log_rest", [82, 89, 142, 284, 279]
 );
 
 #[rustfmt::skip]
 const ELEVEN: &[Part] = parts!(
     11, 14_849, 15_105, 2048, "        lsr\n        lsr\n        lsr\n",
     [part("log_sixteenth", asm!("sixteenth"), &["log_page"], 32)],
-    "log_sixteenth", [103, 107, 143, 286, 281]
+    "log_sixteenth", [107, 107, 143, 286, 281]
 );
 
 /// Those of ten bits, and of eleven, behind the usual ones, which ints need.

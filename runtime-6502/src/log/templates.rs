@@ -82,7 +82,7 @@ pub const HIGH_DIVIDE: &str = concat!(divide!(), high!(), unlike!());
 pub const ANY_DIVIDE: &str = concat!(divide!(), ends!(), unlike!());
 
 /// By how much the first logarithm is greater or less, and what the greater one grows by:
-/// `look` is what [`super::look`] writes out. In the labels stands a letter more.
+/// `look` is what [`super::look`] writes out, and adds. In the labels stands a letter more.
 macro_rules! apart {
     ($l:literal, $borrow:literal, $first:literal, $second:expr, $look:literal) => {
         concat!(
@@ -98,7 +98,7 @@ macro_rules! apart {
             $first,
             "| look ",
             $look,
-            " | adc {0.0} | sta {r.0} | txa | adc {0.1} | sta {r.1} | jmp grown",
+            " 0 | jmp grown",
             $l,
             "{n}
             far",
@@ -110,7 +110,7 @@ macro_rules! apart {
             $l,
             "{n}: | look ",
             $look,
-            "_less | adc {1.0} | sta {r.0} | txa | adc {1.1} | sta {r.1} |",
+            "_less 1 |",
             $second,
             "| grown",
             $l,
@@ -121,8 +121,8 @@ macro_rules! apart {
 
 /// Of two values of one sign.
 macro_rules! sum {
-    () => {
-        apart!("s", "sec", "", "", "log_sum")
+    ($borrow:literal) => {
+        apart!("s", $borrow, "", "", "log_sum")
     };
 }
 
@@ -143,32 +143,33 @@ macro_rules! difference {
     };
 }
 
-pub const SUM: &str = concat!(sum!(), plus!());
-pub const ANY_SUM: &str = concat!(sum!(), high!(), plus!());
-pub const MINUS_SUM: &str = concat!(sum!(), minus!());
+pub const SUM: &str = concat!(sum!("sec"), plus!());
+pub const ANY_SUM: &str = concat!(sum!("sec"), high!(), plus!());
+pub const MINUS_SUM: &str = concat!(sum!("sec"), minus!());
 pub const SUM_LESS: &str = difference!("");
 pub const DIFFERENCE: &str = difference!("eor #1");
 
-/// A sum or a difference, by the signs.
+/// A sum or a difference, by the signs: equal ones leave the carry set. Past the sum a branch
+/// just reaches where nothing is in the zero page.
 macro_rules! either {
-    ($unlike:literal, $second:literal, $high:expr) => {
+    ($unlike:literal, $borrow:literal, $second:literal, $high:expr) => {
         concat!(
-            "lda {0.2} | eor {1.2} | ",
+            "lda {0.2} | cmp {1.2} | ",
             $unlike,
-            " differ{n} |",
-            sum!(),
+            " differ{n} | [s sta {r.2}] |",
+            sum!($borrow),
             $high,
-            "[s lda {0.2} | sta {r.2}] | jmp fits{n}
+            "jmp fits{n}
             differ{n}: |",
             difference!($second)
         )
     };
 }
 
-pub const ADD: &str = either!("bne", "", "");
-pub const SUBTRACT: &str = either!("beq", "eor #1", "");
-pub const ANY_ADD: &str = either!("bne", "", high!());
-pub const ANY_SUBTRACT: &str = either!("beq", "eor #1", high!());
+pub const ADD: &str = either!("bne", "", "", "");
+pub const SUBTRACT: &str = either!("beq", "sec", "eor #1", "");
+pub const ANY_ADD: &str = either!("bne", "", "", high!());
+pub const ANY_SUBTRACT: &str = either!("beq", "sec", "eor #1", high!());
 
 macro_rules! twice {
     () => {
