@@ -139,3 +139,10 @@ fn pictures_that_begin_within_a_word() {
         assert!(!code.collect::<String>().contains("Screen.drawPixel"));
     }
 }
+
+#[test]
+fn what_is_read_later_keeps_its_variable_where_these_are_scarce() {
+    // A channel's level is a minimum of what its variable has, written where it is read.
+    same("colours", &["--rows", "40", "--format", "log10"]);
+    same("colours", &["--rows", "41", "--format", "f316"]);
+}

@@ -140,7 +140,7 @@ impl<'p> Flow<'p> {
         };
         let place = self.number(place);
         self.steps[at].reads.push(place);
-        if self.plan.folded(id) && !is_kept(&self.plan.graph, id) {
+        if self.plan.folded(id) && !is_kept(self.plan, id) {
             let operands = self.plan.graph.node(id).inputs();
             operands.for_each(|operand| self.reads(at, operand));
         }

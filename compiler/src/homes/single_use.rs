@@ -2,7 +2,9 @@
 
 use crate::ir::graph::*;
 use crate::ir::tree::*;
+use crate::plan::Plan;
 use crate::schedule::constant_runs::Still;
+use crate::targets::Language;
 use rustc_hash::FxHashMap;
 use slowlight_routine::{Form, Op, Routine, Value};
 
@@ -163,13 +165,16 @@ impl Uses<'_> {
 }
 
 /// Whether a value has a variable even where it is read once: of a value and a number
-/// the smaller is found by a test, which assigns.
-pub(super) fn is_kept(graph: &Graph, id: NodeId) -> bool {
-    let Node::Apply(Op::Min | Op::Max | Op::IntMin | Op::IntMax, [_, number]) = graph.node(id)
+/// the smaller is found by a test, which assigns. Jack has functions for it.
+pub(super) fn is_kept(plan: &Plan, id: NodeId) -> bool {
+    let Node::Apply(Op::Min | Op::Max | Op::IntMin | Op::IntMax, [_, number]) = plan.graph.node(id)
     else {
         return false;
     };
+    if plan.target.system.language() == Language::Jack {
+        return false;
+    }
     // The least int has no literal of its own.
-    let number = graph.constant(number);
+    let number = plan.graph.constant(number);
     number.is_some_and(|value| value != Value::Int(i32::MIN))
 }
