@@ -110,9 +110,11 @@ fn a_short_loop_is_its_turns() {
 
 #[test]
 fn sines_of_arcs_are_products() {
+    // Of a small picture the tables that a format makes first decide which one is taken.
     let scene = |v: &str| {
         format!(
-            "{HEAD}draw (x, y) = {{
+            "image 160 x 120 inks black, #555555, #aaaaaa, white;
+            draw (x, y) = {{
               let u = (x - 15.5) / 12;
               let w = (y - 11.5) / 12;
               let r = sqrt(u * u + w * w);
