@@ -144,7 +144,7 @@ impl Seen {
 pub(super) fn text(wrong: f64) -> String {
     format!(
         "sines and cosines of what changes from pixel to pixel are looked up in tables; by that \
-         some {:.1}% of the pixels may be wrong (--goal exact works them out)",
+         some {:.1}% of the pixels may be wrong (--tables no works them out)",
         100.0 * wrong
     )
 }

@@ -137,6 +137,10 @@ impl Site<'_> {
             more: None,
             squared: false,
         };
+        // What is 0 everywhere needs no sine.
+        if function.times <= 0.0 {
+            return None;
+        }
         let numbers = (0..table.width as i32).map(|n| self.bits(Value::Real(f64::from(n))));
         let numbers: Vec<Bits> = numbers.collect();
         self.by(recipe, &numbers, table)

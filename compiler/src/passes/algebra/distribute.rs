@@ -19,7 +19,7 @@ use slowlight_routine::Op;
 /// lost where they are nearly opposite.
 const LARGER: f64 = 8.0;
 
-/// How far sums of whole numbers are looked into.
+/// How far sums are looked into.
 const DEEP: u32 = 6;
 
 /// How many terms sums in sums may have.
@@ -125,15 +125,15 @@ impl Site<'_> {
             needs.len() < all.len() && self.fits(term, (at, id))
         };
         let mut terms = Vec::new();
-        self.terms(at, &pays, true, &mut terms)?;
+        self.terms((at, DEEP), &pays, true, &mut terms)?;
         let exact = terms.iter().all(|term| self.is_exact(term.id, DEEP));
         (!exact).then_some((factors, terms))
     }
 
-    /// The terms of a sum, those of a sum in it where that changes too often.
+    /// The terms of a sum, those of a sum in it where that changes too often; so deep.
     fn terms(
         &self,
-        sum: NodeId,
+        (sum, deep): (NodeId, u32),
         pays: &dyn Fn(NodeId) -> bool,
         plus: bool,
         found: &mut Vec<Term>,
@@ -144,7 +144,9 @@ impl Site<'_> {
         for (id, plus) in terms.into_iter().zip([plus, plus == (op == Op::Add)]) {
             match pays(id) {
                 true => found.push(Term { id, plus }),
-                false if found.len() < TERMS => self.terms(id, pays, plus, found)?,
+                false if found.len() < TERMS && deep > 0 => {
+                    self.terms((id, deep - 1), pays, plus, found)?
+                }
                 false => return None,
             }
         }

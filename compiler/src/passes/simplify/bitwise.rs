@@ -2,8 +2,8 @@
 //!
 //! `a xor b` written with quotients and remainders is a sum of bits, each with its weight:
 //! `2 ^ k * ((a div 2 ^ k + b div 2 ^ k) mod 2)`. By which bits of which values each bit of an int
-//! is a function of is found for the low [`BITS`] (a demanded-bits analysis, forwards; LLVM's
-//! known bits and its recognition of bit tests are alike). A sum whose bits are all one function
+//! is a function of is found for the low [`BITS`] by a forward analysis, of which known bits (LLVM's
+//! `KnownBits`) are the constant part. A sum whose bits are all one function
 //! of the bits of the same two values, moved by as much, is that function of the values.
 
 use crate::analysis::range::Ranges;
