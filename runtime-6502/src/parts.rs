@@ -71,7 +71,13 @@ const USUAL: &[Part] = &[
         "fixed_multiply",
         include_str!("../asm/fixed_multiply.asm"),
         &["sign", "multiply"],
-        53,
+        282,
+    ),
+    part(
+        "fixed_square",
+        include_str!("../asm/fixed_square.asm"),
+        &["sign", "multiply"],
+        201,
     ),
     part(
         "int_multiply",

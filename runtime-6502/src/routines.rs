@@ -145,7 +145,7 @@ const REALS: &[Routine] = &[
     routine!("four_times" Mul(R, R) -> R, t::FOUR_TIMES, [], with!(1 = 4.0, fits_real), EXACT, |a, _b| a.wrapping_mul(4), 52, 28),
     routine!("half" Mul(R, R) -> R, t::HALF, [], with!(1 = 0.5), NEAREST, |a, _b| model::shift_round(a, 1), 41, 38),
     routine!("quarter" Mul(R, R) -> R, t::QUARTER, [], with!(1 = 0.25), NEAREST, |a, _b| model::shift_round(a, 2), 66, 50),
-    routine!("mul" Mul(R, R) -> R, "fixed_multiply", ["fixed_multiply"], everywhere, NEAREST, |a, b| model::fixed_multiply(a, b), 960, 51),
+    routine!("mul" Mul(R, R) -> R, "fixed_multiply", ["fixed_multiply"], everywhere, NEAREST, |a, b| model::fixed_multiply(a, b), 750, 51),
     routine!("div_2" Div(R, R) -> R, t::HALF, [], with!(1 = 2.0), NEAREST, |a, _b| model::shift_round(a, 1), 41, 38),
     routine!("div_4" Div(R, R) -> R, t::QUARTER, [], with!(1 = 4.0), NEAREST, |a, _b| model::shift_round(a, 2), 66, 50),
     routine!("div" Div(R, R) -> R, "fixed_divide", ["fixed_divide"], everywhere, NEAREST, |a, b| model::fixed_divide(a, b), 1736, 51),

@@ -239,7 +239,10 @@ pub fn instructions(used: Use<'_>, lines: &mut Vec<String>) -> Option<&'static s
         return None;
     };
     let (square, same) = match used.args {
-        [a, b] if a == b => (scaled::squared(text), log::same(text)),
+        [a, b] if a == b => {
+            let whole = (text == "fixed_multiply").then_some(("fixed_square", "fixed_square"));
+            (scaled::squared(text).or(whole), log::same(text))
+        }
         _ => (None, None),
     };
     let short = scaled::short(text, full_of(used.routine)).filter(|_| used.calls);
@@ -264,7 +267,11 @@ pub fn instructions(used: Use<'_>, lines: &mut Vec<String>) -> Option<&'static s
     } else if text.contains(char::is_whitespace) {
         template(text, used, bytes, lines);
     } else {
-        operands(routine, used.args, lines);
+        let count = match square {
+            Some(_) => 1,
+            None => used.args.len(),
+        };
+        operands(routine, used.args.get(..count).unwrap_or_default(), lines);
         lines.push(format!("        jsr {text}"));
         if let (Some(to), false) = (to, routine.result == Format::Bool) {
             let [result, _] = accumulators(routine.result);

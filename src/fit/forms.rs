@@ -10,6 +10,7 @@ use slowlight_compiler::plan::Copies;
 use slowlight_compiler::planner::PlannedScene;
 use slowlight_compiler::planner::{Candidate, SEARCH};
 use slowlight_compiler::targets::Lean;
+use slowlight_routine::Format;
 
 /// To find what a plan has several times takes so small a part of what it took to find the plan.
 const OUTLINING: u64 = 8;
@@ -165,13 +166,21 @@ impl Search<'_> {
             return Ok(plan);
         }
         let page = with_disc(plan.clone())?.page;
-        let ways = [
-            (Copies::Ends, plan.brief),
-            (Copies::Tests, plan.brief),
-            (Copies::Tests, true),
-        ];
-        let count = if is_basic(&plan) { 3 } else { 2 };
-        for (copies, brief) in ways.into_iter().take(count) {
+        let brief = plan.brief;
+        let ways: &[_] = match plan.runtime.real {
+            _ if is_basic(&plan) => &[
+                (Copies::Ends, brief),
+                (Copies::Tests, brief),
+                (Copies::Tests, true),
+            ],
+            Format::Log { .. } => &[
+                (Copies::Tables, brief),
+                (Copies::Loops, brief),
+                (Copies::Ends, brief),
+            ],
+            _ => &[(Copies::Ends, brief)],
+        };
+        for (copies, brief) in ways.iter().copied() {
             let mut tried = plan.clone();
             (tried.copies, tried.brief, tried.page) = (copies, brief, page);
             if self.holds(&tried)? {

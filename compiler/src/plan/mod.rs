@@ -47,6 +47,7 @@
 //! The model ([`crate::plan::model`]) runs the same plan bit for bit.
 
 pub mod columns;
+mod copies;
 pub mod error;
 mod error_rows;
 mod kept_rows;
@@ -57,6 +58,7 @@ pub mod print;
 mod semantics;
 pub mod table_init;
 
+pub use copies::Copies;
 pub use error_rows::ErrorRows;
 pub use kept_rows::KeptRows;
 pub use params::ParamPlan;
@@ -84,18 +86,6 @@ pub struct Goal {
     pub rows: Option<(u32, u32)>,
     /// Whether the program draws, or only computes (for timing).
     pub plot: bool,
-}
-
-/// What stands behind several ways and may be written on each of them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Copies {
-    /// Nothing.
-    #[default]
-    None,
-    /// What leads to a test whose outcome a way knows.
-    Tests,
-    /// That, and the end of a pixel, with the way's ink.
-    Ends,
 }
 
 /// How one machine computes a scene.

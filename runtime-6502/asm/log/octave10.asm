@@ -4,7 +4,3 @@ log_unit_of_ten = 1     ; a unit of ten bits
 log_of_quarter = 667    ; a quarter turn
 log_of_half_turn = 1691   ; half a turn
 log_of_natural = 10781  ; what an int of units is too large by to be a natural logarithm
-; Pages of distances with an upper byte each, and from where it lies behind the lower one.
-log_sums_pages = 10
-log_lost_pages = 11
-log_pages = 24

@@ -24,6 +24,7 @@ mod templates;
 mod tests;
 
 pub use look::looked_up;
+pub use parts::with_all_pages;
 pub use templates::same;
 
 use crate::scaled::OVERHEAD;

@@ -2,7 +2,7 @@
 
 use super::tables::Bytes;
 use crate::parts::{OF_USUAL, part, terms, with};
-use slowlight_routine::Part;
+use slowlight_routine::{Format, Part};
 
 /// The text of a file.
 macro_rules! asm {
@@ -39,7 +39,7 @@ macro_rules! parts {
     ($frac:literal, $sums:literal, $lost:literal, $parts:literal, $octaves:literal,
      [$($far:expr),*], $rest:literal, [$sum:literal, $difference:literal, $whole:literal, $arc:literal, $sine:literal]) => {
         &[
-            part("log_page", concat!(asm!("page"), asm!("octave", $frac)), &["zero_page"], 0),
+            part("log_page", concat!(asm!("page"), asm!("octave", $frac), asm!("pages", $frac)), &["zero_page"], 0),
             terms("log_sums", Bytes::<$frac>::sums, $sums),
             terms("log_lost", Bytes::<$frac>::lost, $lost),
             terms("log_parts", Bytes::<$frac>::parts, $parts),
@@ -100,3 +100,22 @@ const ELEVEN: &[Part] = parts!(
 /// Those of ten bits, and of eleven, behind the usual ones, which ints need.
 pub(super) static WITH_TEN: [Part; OF_USUAL + TEN.len()] = with(TEN);
 pub(super) static WITH_ELEVEN: [Part; OF_USUAL + ELEVEN.len()] = with(ELEVEN);
+
+/// In place of those of such names, of ten bits, where there is memory: what has both bytes of
+/// the entries of all pages but the last, of which a pointer may meet the next.
+static ALL_PAGES: [Part; 3] = [
+    part(
+        "log_page",
+        concat!(asm!("page"), asm!("octave10"), asm!("pages10_all")),
+        &["zero_page"],
+        0,
+    ),
+    terms("log_sums", super::tables::all_sums, 12_033),
+    terms("log_lost", super::tables::all_lost, 12_033),
+];
+
+/// What stands for a part where there is memory for whole tables; itself, mostly.
+pub fn with_all_pages(real: Format, part: &'static Part) -> &'static Part {
+    let known = |wide: &&Part| wide.name == part.name && real == super::LOG10.real;
+    ALL_PAGES.iter().find(known).unwrap_or(part)
+}

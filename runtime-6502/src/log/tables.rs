@@ -30,6 +30,31 @@ fn planes(list: &[i32], pages: usize, upper: usize) -> Vec<i32> {
     all
 }
 
+fn sums(frac: u8, pages: usize, upper: usize) -> Vec<i32> {
+    planes(&tables(frac).sums.entries, pages, upper)
+}
+
+/// That of 0 is told by its upper byte: no other one is above 0.
+fn lost(frac: u8, pages: usize, upper: usize) -> Vec<i32> {
+    let entries = &tables(frac).differences.entries;
+    let mut lost: Vec<i32> = entries.iter().map(|k| -k).collect();
+    if let Some(none) = lost.first_mut() {
+        *none = 256;
+    }
+    planes(&lost, pages, upper)
+}
+
+/// Those of ten bits with upper bytes for all pages but the last.
+pub fn all_sums() -> Vec<i32> {
+    let (all, ..) = pages(10);
+    sums(10, all, all - 1)
+}
+
+pub fn all_lost() -> Vec<i32> {
+    let (all, ..) = pages(10);
+    lost(10, all, all - 1)
+}
+
 /// Those of so many bits behind the point.
 pub struct Bytes<const FRAC: u8>;
 
@@ -37,18 +62,13 @@ impl<const FRAC: u8> Bytes<FRAC> {
     /// What sums add.
     pub fn sums() -> Vec<i32> {
         let (all, upper, _) = pages(FRAC);
-        planes(&tables(FRAC).sums.entries, all, upper)
+        sums(FRAC, all, upper)
     }
 
-    /// What differences add. That of 0 is told by its upper byte: no other one is above 0.
+    /// What differences add.
     pub fn lost() -> Vec<i32> {
-        let entries = &tables(FRAC).differences.entries;
-        let mut lost: Vec<i32> = entries.iter().map(|k| -k).collect();
-        if let Some(none) = lost.first_mut() {
-            *none = 256;
-        }
         let (all, _, upper) = pages(FRAC);
-        planes(&lost, all, upper)
+        lost(FRAC, all, upper)
     }
 
     /// 256 x 2^(k/OCTAVE) less 256, the whole part, as logarithms of whole numbers have it.

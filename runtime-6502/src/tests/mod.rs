@@ -203,6 +203,21 @@ fn constants_as_operands_give_the_same() {
     }
 }
 
+#[test]
+fn one_value_as_both_operands_gives_the_same() {
+    let place = || Place::At("first_operand".into());
+    let (edges, mut random) = (edges(), Random(11));
+    for routine in RUNTIME.routines.iter().filter(|r| r.args.len() == 2) {
+        let mut bench = Bench::new(routine, &[place(), place()]);
+        let drawn = (0..4000).map(|_| draw(routine.args[0], &mut random, &edges));
+        for a in edges.iter().copied().chain(drawn) {
+            if routine.args[0] == routine.args[1] && in_domain(routine, &[a, a]) {
+                check(&mut bench, routine, &[a, a]);
+            }
+        }
+    }
+}
+
 /// Operands as they occur in scenes: reals from -8 to 8, ints from -1000 to 1000.
 fn typical(format: Format, random: &mut Random) -> i32 {
     let within = |n: i32, random: &mut Random| (random.next() % (2 * n as u32 + 1)) as i32 - n;

@@ -7,7 +7,7 @@ use super::shapes::by_range;
 use super::slots::Slot;
 use crate::ir::graph::*;
 use crate::ir::tree::*;
-use crate::plan::Plan;
+use crate::plan::{Copies, Plan};
 use slowlight_routine::Op;
 use slowlight_routine::{Format, Routine};
 use slowlight_runtime_6502::write::{self, Goal, Place as Operand};
@@ -28,6 +28,8 @@ pub(super) struct Code<'p> {
     pub in_run: bool,
     /// Whether memory is spent for speed here: at pixels, if the program has it.
     pub quick: bool,
+    /// Whether this is of a loop's turn.
+    looping: bool,
     /// Whether the timer is asked where a loop's turn begins.
     pub asks: bool,
     /// The factors of the products that follow in this block.
@@ -51,6 +53,7 @@ impl<'p> Code<'p> {
             needs: Vec::new(),
             in_run: false,
             quick: false,
+            looping: false,
             asks: false,
             ahead: Vec::new(),
         }
@@ -75,6 +78,7 @@ impl<'p> Code<'p> {
         let mut code = Code::new(self.plan, self.homes, &mut text);
         code.in_run = self.in_run;
         code.quick = self.quick;
+        code.looping = self.looping;
         code.asks = self.asks;
         write(&mut code);
         self.clamps |= code.clamps;
@@ -178,6 +182,12 @@ impl<'p> Code<'p> {
         }
     }
 
+    /// Whether what routines look up in tables is called for.
+    fn calls(&self) -> bool {
+        let written = self.looping && self.plan.copies >= Copies::Loops;
+        self.plan.tight || self.plan.lean && !written
+    }
+
     /// What a routine makes of some operands.
     pub fn use_of(&mut self, routine: &Routine, args: &[Operand], goal: &Goal<'_>, number: i32) {
         let mut lines = Vec::new();
@@ -188,7 +198,7 @@ impl<'p> Code<'p> {
             goal,
             serial,
             number,
-            calls: self.plan.lean || self.plan.tight,
+            calls: self.calls(),
         };
         self.needs.extend(write::instructions(used, &mut lines));
         lines.iter().for_each(|line| self.text.line(line));
@@ -268,6 +278,12 @@ impl<'p> Code<'p> {
     /// Leaves a condition where a branch finds it: `bcc` or `beq` goes where it does not hold.
     fn test(&mut self, cond: NodeId) -> (&'static str, &'static str) {
         if self.homes.fused.contains(&cond) {
+            // The sign of what was computed last becomes the carry for bytes alone.
+            let lines = &mut self.text.lines;
+            if lines.last().is_some_and(|(line, _)| line.trim() == "asl") {
+                lines.pop();
+                return ("bpl", "bmi");
+            }
             return ("bcc", "bcs");
         }
         let place = self.homes.operand(self.plan, cond);
@@ -329,9 +345,11 @@ impl<'p> Code<'p> {
         if self.asks {
             self.text.code("jsr vcs_ask");
         }
+        let outer = std::mem::replace(&mut self.looping, true);
         self.block(&turns.body);
         let (fails, holds) = self.test(turns.again);
         let turn = self.apart(|code| code.block(&turns.next));
+        self.looping = outer;
         let rest = self.apart(|code| code.block(&turns.otherwise));
         let over = most_bytes(&turn) + most_bytes(&rest) + 30;
         self.branch(fails, holds, &format!("done{n}"), over);

@@ -57,6 +57,7 @@ mod ports;
 #[cfg(test)]
 mod quotient_tests;
 mod refine;
+mod reports;
 mod rows;
 mod scaled;
 mod screen;
