@@ -25,18 +25,22 @@ log_difference_slow:
         bne log_difference_far
         adc #0
         bne log_difference_far
+log_difference_none:        ; of 0, above all
+        lda #0
+        tax
+        clc
+        rts
 
 ; The same where that is below 0, and x = 1 where the two are equal.
 log_difference_less:
         eor #$ff
-log_difference_less_slow:   ; y is still as it was
+        cmp #log_lost_pages
+        bcs log_difference_less_slow
         tax
         tya
         eor #$ff
         tay
         txa
-        cmp #log_lost_pages
-        bcs log_difference_far
         adc #>(log_lost)
 log_difference_both:
         sta lost_at+1
@@ -46,3 +50,14 @@ log_difference_both:
         tax
         lda (lost_at),y
         rts
+; y is still as it was, and the page is complemented.
+log_difference_less_slow:
+        cmp #log_far_pages
+        bcs log_difference_none
+        tax
+        tya
+        eor #$ff
+        tay
+        txa
+; Behind the pages with upper bytes.
+log_difference_far:

@@ -1,5 +1,3 @@
-; Behind the pages with upper bytes.
-log_difference_far:
         cmp #24
         bcs log_difference_rest
         adc #>(log_lost)
@@ -8,11 +6,13 @@ log_difference_far:
         lda (lost_at),y
         rts
 log_difference_rest:
+        cmp #log_far_pages
+        bcs log_difference_none
         jsr log_rest
         eor #$ff
         adc #1
-        bcs log_difference_none
+        bcs log_difference_rested
         dex
-log_difference_none:
+log_difference_rested:
         clc
         rts

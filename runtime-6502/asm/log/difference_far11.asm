@@ -1,5 +1,3 @@
-; Behind the pages with upper bytes.
-log_difference_far:
         cmp #48
         bcs log_difference_farther
         lsr
@@ -19,13 +17,11 @@ log_difference_byte:
         lda (lost_at),y
         rts
 log_difference_farther:
-        jsr log_sixteenth
+        cmp #log_far_pages
         bcs log_difference_none
+        jsr log_sixteenth
         adc #>(log_lost+8192)
         sta lost_at+1
         ldx #$ff
         lda (lost_at),y
-        rts
-log_difference_none:
-        clc
         rts

@@ -1,8 +1,6 @@
 ; a, x = 0: what a summand adds that is 6 octaves smaller or more; y a = by how much. Steps
 ; are counted, from that on at which the page's first stands. Leaves the carry clear.
 log_rest:
-        cmp #47
-        bcs log_rest_none
         sta log_n+1
         sty log_n
         tax
@@ -20,10 +18,5 @@ log_rest_next:
 log_rest_told:
         txa
         ldx #0
-        clc
-        rts
-log_rest_none:
-        lda #0
-        tax
         clc
         rts

@@ -1,8 +1,5 @@
-; y a = that less six octaves, over 16; the carry is set, and a 0, where nothing is left of so
-; much. x = 0.
+; y a = that less six octaves, over 16, and x = 0. The carry is clear, before and behind.
 log_sixteenth:
-        cmp #100
-        bcs log_sixteenth_none
         sbc #47
         sta log_n
         tya
@@ -18,8 +15,4 @@ log_sixteenth:
         ldx #0
         lda log_n
         clc
-        rts
-log_sixteenth_none:
-        lda #0
-        tax
         rts

@@ -38,13 +38,22 @@ log_sum_less:
         tax
         lda (less_sums_at),y
         rts
+log_sum_none:               ; of 0, above all
+        lda #0
+        tax
+        clc
+        rts
 ; y is still as it was, and the page is complemented.
 log_sum_less_slow:
+        cmp #log_far_pages
+        bcs log_sum_none
         tax
         tya
         eor #$ff
         tay
         txa
-        iny                 ; the carry is set
+        iny                 ; the carry is clear
         bne log_sum_slow
-        adc #0
+        adc #1
+; Behind the pages with upper bytes.
+log_sum_slow:

@@ -1,7 +1,7 @@
-; Behind the pages with upper bytes.
-log_sum_slow:
         cmp #24
         bcc log_sum_byte
+        cmp #log_far_pages
+        bcs log_sum_none
         jmp log_rest
 log_sum_byte:
         adc #>(log_sums)

@@ -1,5 +1,3 @@
-; Behind the pages with upper bytes.
-log_sum_slow:
         cmp #48             ; six: one for two
         bcs log_sum_farther
         lsr
@@ -19,12 +17,10 @@ log_sum_byte:
         lda (sums_at),y
         rts
 log_sum_farther:
-        jsr log_sixteenth   ; one for sixteen
+        cmp #log_far_pages
         bcs log_sum_none
+        jsr log_sixteenth   ; one for sixteen
         adc #>(log_sums+8192)
         sta sums_at+1
         lda (sums_at),y
-        rts
-log_sum_none:
-        clc
         rts

@@ -12,7 +12,9 @@
 //! octaves, and a second one up to where it is below 256; so has what a difference adds, which
 //! is negative. Behind six octaves some steps are counted. These are 17,666 bytes of the
 //! program. Of eleven bits, there is an entry for each distance up to two octaves, for each two
-//! up to six, and then for each 16: 29,954 bytes. Whole parts come from 1,024 bytes of
+//! up to six, and then for each 16: 29,954 bytes. Where there is memory ([`with_whole_tables`])
+//! each distance has an entry with two bytes as far as that is not 0 or 255 for sure, 24,066
+//! bytes or 36,866. Whole parts come from 1,024 bytes of
 //! mantissas, or 2,048, logarithms of ints from two tables of 513.
 
 mod look;
@@ -24,7 +26,6 @@ mod templates;
 mod tests;
 
 pub use look::looked_up;
-pub use parts::with_all_pages;
 pub use templates::same;
 
 use crate::scaled::OVERHEAD;
@@ -52,6 +53,25 @@ pub static LOG11: Runtime = Runtime {
     routines: &routines::WITH_ELEVEN,
     parts: &parts::WITH_ELEVEN,
     ..of::<11>()
+};
+
+/// A runtime of logarithms with whole tables, which take more memory and are quicker; another
+/// one as it is.
+pub fn with_whole_tables(runtime: &'static Runtime) -> &'static Runtime {
+    match runtime.real {
+        real if real == LOG10.real => &LOG10_WHOLE,
+        real if real == LOG11.real => &LOG11_WHOLE,
+        _ => runtime,
+    }
+}
+
+static LOG10_WHOLE: Runtime = Runtime {
+    parts: &parts::WITH_TEN_WHOLE,
+    ..LOG10
+};
+static LOG11_WHOLE: Runtime = Runtime {
+    parts: &parts::WITH_ELEVEN_WHOLE,
+    ..LOG11
 };
 
 /// For programs that draw rows in passes and runs of columns.

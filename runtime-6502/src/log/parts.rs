@@ -2,7 +2,7 @@
 
 use super::tables::Bytes;
 use crate::parts::{OF_USUAL, part, terms, with};
-use slowlight_routine::{Format, Part};
+use slowlight_routine::Part;
 
 /// The text of a file.
 macro_rules! asm {
@@ -34,20 +34,21 @@ macro_rules! curve {
 }
 
 /// In the order in which they stand in a program, for so many bits behind the point: what of
-/// it hangs on these, sizes of tables among it, is given.
+/// it hangs on these, and on what sums are looked up in, sizes of tables among it, is given.
 macro_rules! parts {
-    ($frac:literal, $sums:literal, $lost:literal, $parts:literal, $octaves:literal,
+    ($frac:literal, [$pages:literal, $sum_far:literal, $difference_far:literal],
+     [$sums:expr, $lost:expr], $parts:literal, $octaves:literal,
      [$($far:expr),*], $rest:literal, [$sum:literal, $difference:literal, $whole:literal, $arc:literal, $sine:literal]) => {
         &[
-            part("log_page", concat!(asm!("page"), asm!("octave", $frac), asm!("pages", $frac)), &["zero_page"], 0),
-            terms("log_sums", Bytes::<$frac>::sums, $sums),
-            terms("log_lost", Bytes::<$frac>::lost, $lost),
+            part("log_page", concat!(asm!("page"), asm!("octave", $frac), asm!($pages)), &["zero_page"], 0),
+            terms("log_sums", $sums.0, $sums.1),
+            terms("log_lost", $lost.0, $lost.1),
             terms("log_parts", Bytes::<$frac>::parts, $parts),
             terms("log_logs_low", Bytes::<$frac>::logs_low, 513),
             terms("log_logs_high", Bytes::<$frac>::logs_high, 513),
             $($far,)*
-            part("log_sum", concat!(asm!("sum"), asm!("sum_far", $frac)), &[$rest, "log_sums"], $sum),
-            part("log_difference", concat!(asm!("difference"), asm!("difference_far", $frac)), &[$rest, "log_lost"], $difference),
+            part("log_sum", concat!(asm!("sum"), asm!($sum_far)), &[$rest, "log_sums"], $sum),
+            part("log_difference", concat!(asm!("difference"), asm!($difference_far)), &[$rest, "log_lost"], $difference),
             part("log_keep", asm!("keep"), &["log_page"], 22),
             part("log_plus", asm!("plus"), &["log_sum"], 65),
             part("log_minus", asm!("minus"), &["log_plus", "log_difference", "log_keep"], 48),
@@ -78,44 +79,64 @@ macro_rules! parts {
     };
 }
 
+/// What counts the steps behind six octaves, of ten bits.
 #[rustfmt::skip]
-const TEN: &[Part] = parts!(
-    10, 8705, 8961, 1024, "        lsr\n        lsr\n",
-    [
-        terms("log_rest_first", super::tables::rest_first, 23),
-        terms("log_rest_low", super::tables::rest_low, 24),
-        terms("log_rest_high", super::tables::rest_high, 24),
-        part("log_rest", asm!("rest"), &["log_page", "log_rest_first", "log_rest_low", "log_rest_high"], 40)
-    ],
-    "log_rest", [82, 89, 142, 284, 279]
-);
+macro_rules! ten {
+    ($files:tt, $tables:tt, $bytes:tt) => {
+        parts!(
+            10, $files, $tables, 1024, "        lsr\n        lsr\n",
+            [
+                terms("log_rest_first", super::tables::rest_first, 23),
+                terms("log_rest_low", super::tables::rest_low, 24),
+                terms("log_rest_high", super::tables::rest_high, 24),
+                part("log_rest", asm!("rest"), &["log_page", "log_rest_first", "log_rest_low", "log_rest_high"], 31)
+            ],
+            "log_rest", $bytes
+        )
+    };
+}
 
 #[rustfmt::skip]
-const ELEVEN: &[Part] = parts!(
-    11, 14_849, 15_105, 2048, "        lsr\n        lsr\n        lsr\n",
-    [part("log_sixteenth", asm!("sixteenth"), &["log_page"], 32)],
-    "log_sixteenth", [107, 107, 143, 286, 281]
+macro_rules! eleven {
+    ($files:tt, $tables:tt, $bytes:tt) => {
+        parts!(
+            11, $files, $tables, 2048, "        lsr\n        lsr\n        lsr\n",
+            [part("log_sixteenth", asm!("sixteenth"), &["log_page"], 24)],
+            "log_sixteenth", $bytes
+        )
+    };
+}
+
+const TEN: &[Part] = ten!(
+    ["pages10", "sum_far10", "difference_far10"],
+    [(Bytes::<10>::sums, 8705), (Bytes::<10>::lost, 8961)],
+    [95, 108, 142, 284, 279]
+);
+const TEN_WHOLE: &[Part] = ten!(
+    ["pages10_whole", "sum_far10", "difference_far10"],
+    [
+        (Bytes::<10>::whole_sums, 12_033),
+        (Bytes::<10>::whole_lost, 12_033)
+    ],
+    [95, 108, 142, 284, 279]
+);
+const ELEVEN: &[Part] = eleven!(
+    ["pages11", "sum_far11", "difference_far11"],
+    [(Bytes::<11>::sums, 14_849), (Bytes::<11>::lost, 15_105)],
+    [116, 122, 143, 286, 281]
+);
+const ELEVEN_WHOLE: &[Part] = eleven!(
+    ["pages11_whole", "sum_far11_whole", "difference_far11_whole"],
+    [
+        (Bytes::<11>::whole_sums, 18_177),
+        (Bytes::<11>::whole_lost, 18_689)
+    ],
+    [109, 115, 143, 286, 281]
 );
 
 /// Those of ten bits, and of eleven, behind the usual ones, which ints need.
 pub(super) static WITH_TEN: [Part; OF_USUAL + TEN.len()] = with(TEN);
 pub(super) static WITH_ELEVEN: [Part; OF_USUAL + ELEVEN.len()] = with(ELEVEN);
-
-/// In place of those of such names, of ten bits, where there is memory: what has both bytes of
-/// the entries of all pages but the last, of which a pointer may meet the next.
-static ALL_PAGES: [Part; 3] = [
-    part(
-        "log_page",
-        concat!(asm!("page"), asm!("octave10"), asm!("pages10_all")),
-        &["zero_page"],
-        0,
-    ),
-    terms("log_sums", super::tables::all_sums, 12_033),
-    terms("log_lost", super::tables::all_lost, 12_033),
-];
-
-/// What stands for a part where there is memory for whole tables; itself, mostly.
-pub fn with_all_pages(real: Format, part: &'static Part) -> &'static Part {
-    let known = |wide: &&Part| wide.name == part.name && real == super::LOG10.real;
-    ALL_PAGES.iter().find(known).unwrap_or(part)
-}
+/// The same with whole tables.
+pub(super) static WITH_TEN_WHOLE: [Part; OF_USUAL + TEN.len()] = with(TEN_WHOLE);
+pub(super) static WITH_ELEVEN_WHOLE: [Part; OF_USUAL + ELEVEN.len()] = with(ELEVEN_WHOLE);

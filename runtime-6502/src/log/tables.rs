@@ -1,7 +1,7 @@
 //! The tables of logarithms as bytes.
 
 use slowlight_routine::log::model::WHOLE;
-use slowlight_routine::log::tables::{STEPS, tables};
+use slowlight_routine::log::tables::{ByDistance, STEPS, tables};
 
 /// Pages of entries of one table of distances, and of upper bytes: behind these a sum's entry
 /// is a byte, and the upper one of a difference's is 255.
@@ -30,29 +30,32 @@ fn planes(list: &[i32], pages: usize, upper: usize) -> Vec<i32> {
     all
 }
 
-fn sums(frac: u8, pages: usize, upper: usize) -> Vec<i32> {
-    planes(&tables(frac).sums.entries, pages, upper)
+/// The same of tables that have an entry for each distance as long as entries have two bytes.
+const fn whole_pages(frac: u8) -> (usize, usize, usize) {
+    if frac == 10 {
+        (24, 23, 23)
+    } else {
+        (43, 28, 30)
+    }
+}
+
+/// All entries of such a table: those of stretches that have one for several distances are
+/// repeated, up to the last page with upper bytes.
+fn whole(table: &ByDistance, upper: usize) -> Vec<i32> {
+    let end = upper as i32 * 256;
+    let own = table.entries.iter().zip(0..);
+    let behind = own.filter(|(_, entry)| table.first_of(*entry) >= end);
+    let each = (0..end).map(|apart| table.at(apart));
+    each.chain(behind.map(|(value, _)| *value)).collect()
 }
 
 /// That of 0 is told by its upper byte: no other one is above 0.
-fn lost(frac: u8, pages: usize, upper: usize) -> Vec<i32> {
-    let entries = &tables(frac).differences.entries;
+fn lost(entries: &[i32]) -> Vec<i32> {
     let mut lost: Vec<i32> = entries.iter().map(|k| -k).collect();
     if let Some(none) = lost.first_mut() {
         *none = 256;
     }
-    planes(&lost, pages, upper)
-}
-
-/// Those of ten bits with upper bytes for all pages but the last.
-pub fn all_sums() -> Vec<i32> {
-    let (all, ..) = pages(10);
-    sums(10, all, all - 1)
-}
-
-pub fn all_lost() -> Vec<i32> {
-    let (all, ..) = pages(10);
-    lost(10, all, all - 1)
+    lost
 }
 
 /// Those of so many bits behind the point.
@@ -62,13 +65,25 @@ impl<const FRAC: u8> Bytes<FRAC> {
     /// What sums add.
     pub fn sums() -> Vec<i32> {
         let (all, upper, _) = pages(FRAC);
-        sums(FRAC, all, upper)
+        planes(&tables(FRAC).sums.entries, all, upper)
+    }
+
+    /// The same in whole.
+    pub fn whole_sums() -> Vec<i32> {
+        let (all, upper, _) = whole_pages(FRAC);
+        planes(&whole(&tables(FRAC).sums, upper), all, upper)
     }
 
     /// What differences add.
     pub fn lost() -> Vec<i32> {
         let (all, _, upper) = pages(FRAC);
-        lost(FRAC, all, upper)
+        planes(&lost(&tables(FRAC).differences.entries), all, upper)
+    }
+
+    /// The same in whole.
+    pub fn whole_lost() -> Vec<i32> {
+        let (all, _, upper) = whole_pages(FRAC);
+        planes(&lost(&whole(&tables(FRAC).differences, upper)), all, upper)
     }
 
     /// 256 x 2^(k/OCTAVE) less 256, the whole part, as logarithms of whole numbers have it.

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::routines::{ELEVEN, TEN};
-use super::{LOG10, LOG11, tables};
+use super::{LOG10, LOG11, tables, with_whole_tables};
 use crate::model;
 use crate::tests::bench::{Bench, Random, Setting};
 use crate::write::{Goal, Place, Use, instructions};
@@ -275,7 +275,7 @@ fn known_signs_give_the_same_logarithms_of<const FRAC: u8>() {
             let names = ["first_operand", "second_operand_value"];
             let place = |k: usize| Place::Signed(names[k].into(), signs[k]);
             let places: Vec<Place> = (0..routine.args.len()).map(place).collect();
-            let mut bench = bench_of::<FRAC>(routine, &places, false);
+            let mut bench = bench_of(runtime::<FRAC>(), routine, &places, false);
             for _ in 0..300 {
                 let mut args: Vec<Bits> = Vec::new();
                 for (k, format) in routine.args.iter().enumerate() {
@@ -317,12 +317,25 @@ fn calls_give_the_same() {
 }
 
 fn calls_give_the_same_of<const FRAC: u8>() {
+    sums_give_the_same_of::<FRAC>(runtime::<FRAC>(), true);
+}
+
+/// Whole tables have what the others have.
+#[test]
+fn whole_tables_give_the_same() {
+    for calls in [true, false] {
+        sums_give_the_same_of::<10>(with_whole_tables(&LOG10), calls);
+        sums_give_the_same_of::<11>(with_whole_tables(&LOG11), calls);
+    }
+}
+
+fn sums_give_the_same_of<const FRAC: u8>(runtime: &'static Runtime, calls: bool) {
     let names = ["first_operand", "second_operand_value"];
     let looks = |r: &&Routine| matches!(r.form, Form::Statement(text) if text.contains("look "));
     let mut random = Random(9);
     for routine in of_reals::<FRAC>().iter().filter(looks) {
         let places = names.map(|name| Place::At(name.into()));
-        let mut bench = bench_of::<FRAC>(routine, &places, true);
+        let mut bench = bench_of(runtime, routine, &places, calls);
         let all = operands::<FRAC>(routine);
         for _ in 0..4000 {
             let args = &all[random.next() as usize % all.len()];
@@ -339,7 +352,12 @@ fn calls_give_the_same_of<const FRAC: u8>() {
 }
 
 /// A use whose result keeps no sign.
-fn bench_of<const FRAC: u8>(routine: &'static Routine, places: &[Place], calls: bool) -> Bench {
+fn bench_of(
+    runtime: &'static Runtime,
+    routine: &'static Routine,
+    places: &[Place],
+    calls: bool,
+) -> Bench {
     let write = |lines: &mut Vec<String>| {
         let goal = match routine.result {
             Format::Log { .. } => Goal::Held("result", 2),
@@ -357,7 +375,7 @@ fn bench_of<const FRAC: u8>(routine: &'static Routine, places: &[Place], calls: 
         needs.extend(instructions(used, lines));
         needs
     };
-    Bench::written(runtime::<FRAC>(), &write).sized(match routine.result {
+    Bench::written(runtime, &write).sized(match routine.result {
         Format::Bool => 1,
         Format::Log { .. } => 3,
         _ => 4,

@@ -112,6 +112,20 @@ pub struct ByDistance {
 }
 
 impl ByDistance {
+    /// The first distance that an entry is for.
+    pub fn first_of(&self, entry: i32) -> i32 {
+        let (mut first, mut from, mut shift) = (0, 0, 0);
+        for &(next, by) in self.stretches {
+            let count = (next - from) >> shift;
+            if entry - first < count {
+                break;
+            }
+            first += count;
+            (from, shift) = (next, by);
+        }
+        from + ((entry - first) << shift)
+    }
+
     /// What stands there.
     pub fn at(&self, apart: i32) -> i32 {
         let mut first = 0;

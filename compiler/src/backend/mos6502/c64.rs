@@ -1,8 +1,9 @@
 //! A Commodore 64: a bitmap in the RAM under the KERNAL, and the machine for itself.
 //!
 //! The program is loaded like one in BASIC and begins with a line that starts it. While it
-//! runs there are no interrupts and no ROMs, and all of the zero page is its own. The
-//! picture stands until a key is pressed; then everything is put back, and BASIC goes on.
+//! runs there are no interrupts and no ROMs, and all of the zero page is its own; the circuits
+//! are there while they are told something or asked, else the RAM under them, which has the
+//! tables of squares. The picture stands until a key is pressed; then everything is put back, and BASIC goes on.
 
 use super::super::colours::{assign, commodore};
 use super::Text;
@@ -13,6 +14,11 @@ use crate::plan::Plan;
 /// Where what belongs to the ROMs is kept: the zero page but its first two bytes, in which
 /// the processor's port is, and the stack pointer in place of the first.
 const KEPT: &str = "$cb00";
+
+/// Lays the circuits over the RAM, without the ROMs; changes a.
+pub(super) const CIRCUITS: &str = "lda #$35 | sta port";
+/// Leaves the RAM alone.
+pub(super) const RAM: &str = "lda #$34 | sta port";
 
 /// How the program comes to the machine.
 pub(super) fn how(plan: &Plan, text: &mut Text) {
@@ -37,13 +43,16 @@ pub(super) fn symbols(text: &mut Text) {
     }
 }
 
-/// The line of BASIC, and the machine made one's own.
-pub(super) fn begin(text: &mut Text) {
+/// The line of BASIC.
+pub(super) fn line(text: &mut Text) {
     text.line("        .byte 11, 8, 10, 0, 158, 50, 48, 54, 49, 0, 0, 0    ; 10 SYS 2061");
-    text.label("begin");
+}
+
+/// The machine made one's own.
+pub(super) fn begin(text: &mut Text) {
     text.line("        ; no interrupts, no ROMs; what is theirs is kept");
     text.code("sei | cld | lda #<(no_interrupt) | sta $fffa | lda #>(no_interrupt) | sta $fffb");
-    text.code("lda #$35 | sta port | ldx #2");
+    text.code(&format!("{RAM} | ldx #2"));
     text.label("keep_page");
     text.code(&format!(
         "lda $00,x | sta {KEPT},x | inx | bne keep_page | tsx | stx {KEPT}"
@@ -59,6 +68,7 @@ pub(super) fn open(plan: &Plan, text: &mut Text) {
         true => colours[1] << 4 | colours[2],
         false => colours[1] << 4 | colours[0],
     };
+    text.code(CIRCUITS);
     text.line("        ; the bitmap at $e000, empty; its colours at $cc00");
     text.code("ldy #$e0 | ldx #31 | lda #0 | jsr fill_pages");
     text.code(&format!("ldy #$cc | ldx #4 | lda #{pair} | jsr fill_pages"));
@@ -72,7 +82,7 @@ pub(super) fn open(plan: &Plan, text: &mut Text) {
     text.code("lda $dd00 | and #$fc | sta $dd00 | lda #$38 | sta $d018");
     let columns = if many { "d8" } else { "c8" };
     text.code(&format!(
-        "lda #${columns} | sta $d016 | lda #$3b | sta $d011"
+        "lda #${columns} | sta $d016 | lda #$3b | sta $d011 | {RAM}"
     ));
     text.line("        ; the bitmap's last bytes");
     text.code("ldx #63 | lda #0");
@@ -82,7 +92,7 @@ pub(super) fn open(plan: &Plan, text: &mut Text) {
 
 /// Behind the picture: it stands until a key is pressed.
 pub(super) fn end(text: &mut Text) {
-    text.code("lda #0 | sta $dc00");
+    text.code(&format!("{CIRCUITS} | lda #0 | sta $dc00"));
     text.label("keep_picture");
     text.code("lda $dc01 | cmp #$ff | beq keep_picture");
     text.code("jsr give_back | jsr cint");

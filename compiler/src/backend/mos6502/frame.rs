@@ -2,6 +2,7 @@
 //! runtime's parts.
 
 use super::code::Code;
+use super::first::First;
 use super::homes::Homes;
 use super::memory::Machine;
 use super::params::{Entry, entries, take_params};
@@ -15,7 +16,7 @@ use super::{Text, bbc, c64, ports, steps, table};
 use crate::ir::tree::SubroutineId;
 use crate::plan::{Copies, Plan};
 use slowlight_routine::{Format, Part, Source};
-use slowlight_runtime_6502::log::with_all_pages;
+use slowlight_runtime_6502::log::with_whole_tables;
 use slowlight_runtime_6502::write;
 use std::ops::Range;
 
@@ -100,8 +101,8 @@ fn resident(
         text.line(table::CLAMP);
     }
     table::data(plan, text);
-    let squares = Squares::of(machine, parts);
-    let behind = |part: &&&Part| !is_page(part) && !squares.replace(part);
+    let first = First::of(plan, parts);
+    let behind = |part: &&&Part| !is_page(part) && !first.has(part);
     for part in parts.iter().filter(behind) {
         text.headline(&format!("runtime: {}", part.name));
         source(machine, part, text);
@@ -128,11 +129,11 @@ fn parts(plan: &Plan, entries: &[Entry], read: &[&'static str]) -> Vec<&'static 
     if table::any_large(plan) {
         names.push("int_multiply");
     }
-    let wide = |part| match plan.copies {
-        Copies::Tables => with_all_pages(plan.runtime.real, part),
-        _ => part,
+    let runtime = match plan.copies {
+        Copies::Tables => with_whole_tables(plan.runtime),
+        _ => plan.runtime,
     };
-    plan.runtime.closure(names).into_iter().map(wide).collect()
+    runtime.closure(names)
 }
 
 /// Whether a part only names places in the zero page.
@@ -225,7 +226,7 @@ fn symbols(plan: &Plan, homes: &Homes, parts: &[&'static Part], text: &mut Text)
         text.line(format!("{} = ${:04x}", refine::KEPT, homes.places.errors));
     }
     text.line("");
-    let origin = Squares::of(machine, parts).origin(homes.places.origin);
+    let origin = First::of(plan, parts).origin(homes.places.origin);
     text.line(format!("* = ${origin:04x}"));
     first
 }
@@ -244,7 +245,10 @@ fn begin(plan: &Plan, parts: &[&'static Part], text: &mut Text) {
     text.line("");
     text.label("start");
     let machine = Machine::of(plan);
-    Squares::of(machine, parts).tables(text);
+    if machine == Machine::C64 {
+        c64::line(text);
+    }
+    First::of(plan, parts).write(text);
     match machine {
         Machine::C64 => c64::begin(text),
         _ => text.code("cld | ldx #$ff | txs"),

@@ -3,8 +3,8 @@
 //! | | plain | BBC Micro | Commodore 64 |
 //! |---|---|---|---|
 //! | zero page | all | &00-&8F, &A8-&CF: the language's and what the disc uses | all but $00 and $01: kept, and put back at the end |
-//! | quarter squares | the program's first 2K | &400 (the language's), &900-&CFF (cassette, keys, letters) | $C000 |
-//! | values, errors | from $0200 | from PAGE | below $C000 |
+//! | quarter squares | the program's first 2K | &400 (the language's), &900-&CFF (cassette, keys, letters) | $D000, under the circuits |
+//! | values, errors | from $0200 | from PAGE | below $CB00 |
 //! | program | behind those | behind those, up to the screen | from $0801 up to those |
 //! | screen | ports | as much as the picture takes, up to &8000 | $E000, its colours at $CC00 |
 
@@ -24,8 +24,8 @@ pub const LEAST_PAGE: u16 = 0x0E00;
 const TEXT_SCREEN: u16 = 0x7C00;
 /// Where a BASIC program of the Commodore 64 begins.
 pub(super) const C64_ORIGIN: u16 = 0x0801;
-/// What its program and values may take ends here.
-const C64_END: u16 = 0xC000;
+/// What its program and values may take ends here, below what is kept of the ROMs'.
+const C64_END: u16 = 0xCB00;
 
 /// A machine that programs are written for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -184,10 +184,10 @@ impl Machine {
                 ("sqr_hi", 0xB00),
             ],
             Machine::C64 => [
-                ("sqr_lo", 0xC000),
-                ("sqr_hi", 0xC200),
-                ("sqd_lo", 0xC400),
-                ("sqd_hi", 0xC600),
+                ("sqr_lo", 0xD000),
+                ("sqr_hi", 0xD200),
+                ("sqd_lo", 0xD400),
+                ("sqd_hi", 0xD600),
             ],
         };
         let placed = lines.lines().map(|line| {

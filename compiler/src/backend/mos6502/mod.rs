@@ -6,14 +6,14 @@
 //!
 //! 1. the parameter block: what may be changed, as scaled integers;
 //! 2. the ports of the machine, the runtime's zero page, the homes of values;
-//! 3. on the plain machine, the quarter squares;
+//! 3. tables that are to begin at pages (`first`);
 //! 4. the program: once a picture, once a row, once a pixel;
 //! 5. constant tables, and the parts of the runtime that are used.
 //!
 //! A value lives in memory: in the zero page those that are used most (loops
 //! count eightfold), the others before the program or behind it. Routines are
 //! written as [`slowlight_runtime_6502::write`] says; a condition that the next
-//! statement branches on stays in the carry flag.
+//! statement branches on stays in the carry flag, or in the sign that this would come from.
 //!
 //! - `memory`: the machines, and what of their memory is left to a program;
 //! - `screen`: what is drawn on; `ports`, `blocks`: the plain machine's; `bitmap`: memory;
@@ -41,6 +41,7 @@ mod comment;
 mod comparisons;
 mod draft;
 mod extent;
+mod first;
 mod frame;
 mod homes;
 mod in_place;

@@ -1,11 +1,8 @@
 //! The quarter squares that products are read from, where a program uses them: in the
 //! program itself, or made in memory at the start.
-//!
-//! In the program they stand first, from a page's beginning, so that nothing has to be left
-//! empty for that. The first instruction, a jump over them, ends the page before.
 
 use super::Text;
-use super::memory::{JUMP, Machine};
+use super::memory::Machine;
 use slowlight_routine::Part;
 use slowlight_runtime_6502::squares::{PAGES, TABLES};
 
@@ -35,20 +32,11 @@ impl Squares {
         self == Squares::Stored && part.name == PART
     }
 
-    /// Where a program begins that would otherwise begin at a page.
-    pub fn origin(self, page: u16) -> u16 {
-        match self {
-            Squares::Stored => page.saturating_sub(JUMP),
-            Squares::Unused | Squares::Made => page,
-        }
-    }
-
-    /// Behind the program's first label: the tables that are in it.
+    /// The tables that are in a program.
     pub fn tables(self, text: &mut Text) {
         if self != Squares::Stored {
             return;
         }
-        text.code("jmp begin");
         text.headline("quarter squares");
         text.line("; f(n) = floor(n n / 4), in four tables that begin at pages.");
         text.line(
@@ -58,8 +46,6 @@ impl Squares {
             text.label(table.label);
             text.bytes(table.bytes());
         }
-        text.headline("once a picture");
-        text.label("begin");
     }
 
     /// Makes the tables, and the pointers' upper bytes.

@@ -1,6 +1,7 @@
 //! Between two pictures: what is held, and the states' next values.
 
 use super::bbc;
+use super::c64;
 use super::code::Code;
 use super::memory::Machine;
 use super::ports::{HANDS, HELD};
@@ -28,8 +29,11 @@ pub(super) fn between(code: &mut Code<'_>) {
         Machine::C64 => {
             code.text
                 .line("        ; a joystick in port 2, where no keys are selected");
-            code.text
-                .code("lda #$ff | sta $dc00 | lda $dc00 | sta prod");
+            code.text.code(&format!(
+                "{} | lda #$ff | sta $dc00 | lda $dc00 | sta prod | {}",
+                c64::CIRCUITS,
+                c64::RAM
+            ));
         }
         Machine::Bbc if plan.graph.buttons().next().is_none() => {
             code.text.code(&is_held(Button::Fire));

@@ -52,10 +52,12 @@ fn moved_costs<const FRAC: u8>() -> String {
         }
     }
     let own = |part: &&Part| part.name.starts_with("log_");
-    for part in runtime::<FRAC>().parts.iter().filter(own) {
-        let bytes = part_bytes(runtime::<FRAC>(), part.name);
-        if bytes != part.bytes {
-            moved += &format!("{FRAC} part {} {bytes}\n", part.name);
+    for runtime in [runtime::<FRAC>(), with_whole_tables(runtime::<FRAC>())] {
+        for part in runtime.parts.iter().filter(own) {
+            let bytes = part_bytes(runtime, part.name);
+            if bytes != part.bytes {
+                moved += &format!("{FRAC} part {} {bytes}\n", part.name);
+            }
         }
     }
     moved
