@@ -29,7 +29,10 @@ impl Code<'_> {
         let quick = matches!(self.values.style, Style::Fast | Style::Lean);
         self.assign_before();
         let text = match home == second {
-            true if first.is_simple() => format!("IF {home}{sign}{0} THEN {home}={0}", first.text),
+            // One that is no expression: a variable, or an entry of an array.
+            true if first.is_simple() || !self.values.plan.folded(a) => {
+                format!("IF {home}{sign}{0} THEN {home}={0}", first.text)
+            }
             true => return false,
             // What is a variable is compared first, and one of the two assigned: not both in turn.
             false if quick && first.is_simple() && first.text != home => format!(
