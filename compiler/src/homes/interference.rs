@@ -11,6 +11,7 @@ use crate::homes::liveness::{Flow, Set, Step};
 use crate::ir::graph::*;
 use crate::ir::tree::*;
 use crate::plan::Plan;
+use crate::targets::Language;
 use rustc_hash::{FxHashMap, FxHashSet};
 use slowlight_routine::{Format, Op};
 
@@ -71,11 +72,11 @@ pub fn homes(plan: &Plan, in_place: InPlace<'_>) -> Homes {
     }
     // The smaller of two is the first of them, unless the other is.
     for step in &flow.steps {
-        if let Some(to) = step.writes
-            && let Some(from) = flow.first_of_extreme(to)
-            && flow.format(to) == flow.format(from)
-        {
-            classes.join(to, from, [&mut meets, &mut close]);
+        let Some(to) = step.writes else { continue };
+        for from in flow.of_extreme(to).into_iter().flatten() {
+            if flow.format(to) == flow.format(from) {
+                classes.join(to, from, [&mut meets, &mut close]);
+            }
         }
     }
     flow.coloured(&mut classes, &meets, &close)
@@ -152,17 +153,21 @@ impl Flow<'_> {
         order.into_iter().map(|(_, step)| step)
     }
 
-    /// The place of the first operand of what is the smaller or larger of two.
-    fn first_of_extreme(&self, place: usize) -> Option<usize> {
+    /// The places of what a value is the smaller or larger of: in BASIC of both, as either may
+    /// be written over, if the first is no expression.
+    fn of_extreme(&self, place: usize) -> [Option<usize>; 2] {
         let Place::Node(id) = self.places[place] else {
-            return None;
+            return [None; 2];
         };
-        let Node::Apply(Op::Min | Op::Max | Op::IntMin | Op::IntMax, [first, _]) =
+        let Node::Apply(Op::Min | Op::Max | Op::IntMin | Op::IntMax, [first, second]) =
             self.plan.graph.node(id)
         else {
-            return None;
+            return [None; 2];
         };
-        self.known(self.plan.place(first)?)
+        let known = |id: NodeId| self.known(self.plan.place(id)?);
+        let either = self.plan.target.system.language() == Language::Basic
+            && (self.plan.graph.constant(first).is_some() || !self.plan.folded(first));
+        [known(first), known(second).filter(|_| either)]
     }
 
     /// Which places interfere in one of some cases.

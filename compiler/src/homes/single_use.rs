@@ -167,12 +167,17 @@ impl Uses<'_> {
 /// Whether a value has a variable even where it is read once: of a value and a number
 /// the smaller is found by a test, which assigns. Jack has functions for it.
 pub(super) fn is_kept(plan: &Plan, id: NodeId) -> bool {
-    let Node::Apply(Op::Min | Op::Max | Op::IntMin | Op::IntMax, [_, number]) = plan.graph.node(id)
-    else {
+    let Node::Apply(op, [_, number]) = plan.graph.node(id) else {
         return false;
     };
     if plan.target.system.language() == Language::Jack {
         return false;
+    }
+    match op {
+        // In BASIC tests choose among its ways as well.
+        Op::Atan2 => return plan.target.system.language() == Language::Basic,
+        Op::Min | Op::Max | Op::IntMin | Op::IntMax => {}
+        _ => return false,
     }
     // The least int has no literal of its own.
     let number = plan.graph.constant(number);

@@ -14,6 +14,7 @@ use crate::passes::loops::polynomials::polynomials;
 use crate::passes::loops::trip_counts::trip_counts;
 use crate::passes::simplify::bitwise::bitwise;
 use crate::passes::simplify::constant_factors::constant_factors;
+use crate::passes::simplify::doubled_products::doubled_products;
 use crate::passes::simplify::function_tables::function_tables;
 use crate::passes::simplify::interpolated_tables::interpolated_tables;
 use crate::passes::simplify::quotient_tables::quotient_tables;
@@ -83,6 +84,7 @@ passes! {
     Bitwise "bitwise" "passes/simplify/bitwise" "bitwise operations of what is added up bit by bit"
     QuotientTables "quotient-tables" "passes/simplify/quotient_tables" "tables of integer quotients and remainders by constants"
     Reciprocals "reciprocals" "passes/simplify/reciprocals" "division as multiplication by a shared reciprocal"
+    DoubledProducts "doubled-products" "passes/simplify/doubled_products" "doubled products as products with a doubled factor"
     Phases "phases" "passes/loops/strength_reduction" "phase accumulators for periodic functions of the column"
     ScanlineRuns "scanline-runs" "passes/loops/strength_reduction/runs" "values stepped along runs of columns"
     Reassociate "reassociate" "passes/algebra/reassociate" "reassociation and common subexpressions of sums"
@@ -114,4 +116,5 @@ pub const REWRITES: &[(Pass, Rewrite)] = &[
     (Pass::Bitwise, bitwise),
     (Pass::QuotientTables, quotient_tables),
     (Pass::Reciprocals, reciprocals),
+    (Pass::DoubledProducts, doubled_products),
 ];

@@ -11,8 +11,10 @@ use crate::ir::tree::*;
 use crate::plan::Plan;
 use crate::source::Span;
 use rustc_hash::FxHashSet;
-use slowlight_routine::Op;
 use std::collections::BTreeMap;
+
+mod arc;
+mod extreme;
 
 /// About how often an arm is taken, for the weights of names only.
 const ARM: u64 = 2;
@@ -203,7 +205,7 @@ impl<'p> Code<'p> {
         if let Node::Stepped { step, .. } = self.values.plan.graph.node(id) {
             return self.add_step(id, step);
         }
-        if self.extreme(id) {
+        if self.extreme(id) || self.arc(id) {
             return;
         }
         let text = self.values.compute(id);
@@ -242,35 +244,6 @@ impl<'p> Code<'p> {
         for (home, text) in std::mem::take(&mut self.values.before) {
             self.assign(&home, &text);
         }
-    }
-
-    /// The smaller or larger of two values by an IF, which is quicker than a
-    /// function; whether the node is one.
-    fn extreme(&mut self, id: NodeId) -> bool {
-        if self.values.style == Style::Listing {
-            return false;
-        }
-        let Node::Apply(op, [a, b]) = self.values.plan.graph.node(id) else {
-            return false;
-        };
-        let sign = match op {
-            Op::Min | Op::IntMin => ">",
-            Op::Max | Op::IntMax => "<",
-            _ => return false,
-        };
-        if !self.values.simple(b) {
-            return false;
-        }
-        let (first, second) = (self.values.read(a), self.values.read(b).text);
-        let home = self.values.names.home(Place::Node(id)).to_owned();
-        self.assign_before();
-        if home == second {
-            return false;
-        }
-        self.assign(&home, &first);
-        let text = format!("IF {home}{sign}{second} THEN {home}={second}");
-        self.lines.line(text, self.span);
-        true
     }
 
     /// A way that is seldom taken, between labels: it is moved out of the others' way.

@@ -39,7 +39,7 @@ pub fn square_comparisons(graph: &Graph, ranges: &Ranges) -> Option<Graph> {
 }
 
 /// By whom each value is read: how often in all.
-fn uses(graph: &Graph) -> Vec<u32> {
+pub(crate) fn uses(graph: &Graph) -> Vec<u32> {
     let mut uses = vec![0; graph.nodes.len()];
     let mut read = |id: NodeId| uses[id.0 as usize] += 1;
     for id in graph.ids() {

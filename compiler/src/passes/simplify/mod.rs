@@ -2,6 +2,7 @@
 
 pub mod bitwise;
 pub mod constant_factors;
+pub mod doubled_products;
 pub mod fold;
 pub mod function_tables;
 pub mod integer_parts;
