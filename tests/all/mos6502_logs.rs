@@ -4,9 +4,9 @@
 use crate::cli::{directory, json};
 use crate::jack::planned_in;
 use crate::mos6502::Scribe;
-use slowlight_compiler::plan::Plan;
 use slowlight_compiler::plan::model::ModelRun;
-use slowlight_compiler::targets::mos6502::PLAIN_LOG10;
+use slowlight_compiler::plan::{Copies, Plan};
+use slowlight_compiler::targets::mos6502::{PLAIN_LOG10, PLAIN_LOG11};
 use slowlight_vm::Stop;
 use slowlight_vm::mos6502::{Plain, assemble};
 use std::path::Path;
@@ -68,6 +68,42 @@ fn known_signs_are_not_read() {
     let text = slowlight_compiler::backend::emit(&plan).remove(0).text;
     assert!(text.contains("lda b_value+2"), "{text}");
     assert!(!text.contains("lda a_value+2"), "{text}");
+}
+
+/// Lookups called, written out in loops, and in whole tables; these begin at pages, one byte
+/// further each.
+#[test]
+fn what_memory_is_spent_on_changes_no_pixel() {
+    let source = "image 24 x 16 inks black, white;
+        param a: real = 0.3 in 0.1 .. 2;
+        draw (x, y) = {
+            let v = loop (k = 0, s = 0.0) max 6 {
+                if s > 40 then s
+                else next(k + 1, s * 0.7 + max(x - 12, 0) * (k + a) - max(y - 7, 0) * a)
+            } else a;
+            ink(floor(v - x * 0.001) mod 2)
+        };";
+    for target in [&PLAIN_LOG10, &PLAIN_LOG11] {
+        let mut plan = planned_in(target, source, (&[], None), true).unwrap();
+        let mut pixels = Vec::new();
+        let mut sizes = Vec::new();
+        for lean in [false, true] {
+            for copies in [Copies::None, Copies::Ends, Copies::Loops, Copies::Tables] {
+                (plan.lean, plan.copies) = (lean, copies);
+                pixels.push(agrees(&plan, source));
+                let text = slowlight_compiler::backend::emit(&plan).remove(0).text;
+                let program = assemble(&text).unwrap();
+                let at = |name: &str| program.symbols[name] & 0xFF;
+                assert_eq!((at("log_sums"), at("log_lost")), (0, 1));
+                sizes.push(program.image().len());
+            }
+        }
+        assert!(pixels.iter().all(|found| *found == pixels[0]));
+        assert!(pixels[0].contains(&0) && pixels[0].contains(&1));
+        // Calls are shorter; loops are not where nothing is called; whole tables are long.
+        assert!(sizes[4] < sizes[0] && sizes[2] == sizes[1] && sizes[6] > sizes[5]);
+        assert!(sizes[3] >= sizes[2] + 6000 && sizes[7] >= sizes[6] + 6000);
+    }
 }
 
 #[test]

@@ -65,7 +65,7 @@ impl First {
         if !self.is_empty() {
             text.code("jmp begin");
             if self.machine == Machine::C64 {
-                text.line(format!("        .res {}", 0x100 - BEFORE));
+                text.bytes(std::iter::repeat_n(0, usize::from(0x100 - BEFORE)));
             }
             self.squares.tables(text);
             for part in &self.tables {

@@ -38,7 +38,12 @@ pub(in crate::backend) fn starts(plan: &Plan) -> u64 {
         }
         // Where reals have points of their own, whole numbers are only moved.
         _ if plan.points().is_some() => divided * divide,
-        _ => made * divide,
+        // By what divides any operands, which the last one does.
+        _ => {
+            let mut all = plan.runtime.routines.iter().rev();
+            let divide = all.find(|routine| routine.op == Op::Div);
+            made * divide.map_or(0, |routine| u64::from(routine.cycles))
+        }
     };
     let params = PARAM * (2 + plan.params.len() as u64) + reals;
     let inks = plan.graph.image.palette.len() as u64;
