@@ -17,8 +17,9 @@ const KEPT: &str = "$cb00";
 
 /// Lays the circuits over the RAM, without the ROMs; changes a.
 pub(super) const CIRCUITS: &str = "lda #$35 | sta port";
-/// Leaves the RAM alone.
-pub(super) const RAM: &str = "lda #$34 | sta port";
+/// Leaves the RAM alone. With neither ROM the third bit counts for nothing; an emulator has it
+/// that looks at that bit only.
+pub(super) const RAM: &str = "lda #$30 | sta port";
 
 /// How the program comes to the machine.
 pub(super) fn how(plan: &Plan, text: &mut Text) {
