@@ -85,7 +85,7 @@ impl Pixels {
             let one = |(x, y)| Pixel { y, x, weight: 1 };
             return Pixels {
                 all: places.into_iter().map(one).collect(),
-                patience: PATIENCE,
+                patience: PATIENCE.max(MORE * ran),
             };
         }
         if tried.len() < LEAST {
