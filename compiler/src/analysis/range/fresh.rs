@@ -62,14 +62,15 @@ impl Walk<'_> {
     /// Whether what a place is given is worth computing again: where it makes what a loop
     /// carries grow, or is to narrow it.
     pub(super) fn looks_closely(&self, place: Place, from: NodeId) -> bool {
-        match place {
-            _ if self.narrowing || self.growth.is_some() => true,
-            Place::Carried(of, k) | Place::Scratch(of, k) => {
-                let (held, now) = (self.carried_range(of, k), self.read(from));
-                !now.within(held.lo, held.hi)
-            }
-            Place::Node(_) => false,
-        }
+        let carried = match place {
+            _ if self.narrowing || self.growth.is_some() => return true,
+            Place::Carried(of, k) | Place::Scratch(of, k) => Some((of, k)),
+            Place::Node(id) => self.once.gives(id),
+        };
+        carried.is_some_and(|(of, k)| {
+            let (held, now) = (self.carried_range(of, k), self.read(from));
+            !now.within(held.lo, held.hi)
+        })
     }
 
     /// What a value comes to here.

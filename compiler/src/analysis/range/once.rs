@@ -20,6 +20,8 @@ pub(super) struct Once {
     computed: Vec<Option<Range>>,
     /// By loop, who reads its carried values.
     carried: Vec<Vec<(NodeId, u32)>>,
+    /// By choice, which carried value it gives on, or is part of a choice that does.
+    gives: FxHashMap<NodeId, (LoopId, u32)>,
     /// What carried ints are compared with.
     compared: FxHashMap<(LoopId, u32), Vec<f64>>,
     /// How far what conditions say may be off.
@@ -45,6 +47,7 @@ impl Once {
             odd: vec![None; graph.nodes.len()],
             computed: vec![None; graph.nodes.len()],
             carried,
+            gives: gives(graph),
             compared: compared(graph),
             doubts: FxHashMap::default(),
         }
@@ -63,6 +66,11 @@ impl Once {
     /// The nodes that read a loop's carried values, and which.
     pub(super) fn carried(&self, of: LoopId) -> &[(NodeId, u32)] {
         &self.carried[of.0 as usize]
+    }
+
+    /// The carried value that a choice, or one that it is part of, gives on.
+    pub(super) fn gives(&self, choice: NodeId) -> Option<(LoopId, u32)> {
+        self.gives.get(&choice).copied()
     }
 
     /// Bounds that a carried int may have because it is compared with them: of a range, the
@@ -107,6 +115,25 @@ impl Once {
         self.computed[id.0 as usize] = Some(range);
         range
     }
+}
+
+/// The choices between what loops give on.
+fn gives(graph: &Graph) -> FxHashMap<NodeId, (LoopId, u32)> {
+    let mut all = FxHashMap::default();
+    for (of, turns) in graph.loops.iter().enumerate() {
+        let next = turns.next.iter().enumerate();
+        let mut todo: Vec<_> = next
+            .map(|(k, &id)| (id, (LoopId(of as u32), k as u32)))
+            .collect();
+        while let Some((id, carried)) = todo.pop() {
+            if let Node::Select { yes, no, .. } = graph.node(id)
+                && all.insert(id, carried).is_none()
+            {
+                todo.extend([(yes, carried), (no, carried)]);
+            }
+        }
+    }
+    all
 }
 
 /// What ints that loops carry are compared with: constants.

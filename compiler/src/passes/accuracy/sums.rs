@@ -30,7 +30,7 @@ pub static SUMS: &[SumRule] = &[
         name: "equal terms",
         left: "(x + y) - (x + z)",
         right: "y - z",
-        condition: "x has a known bound, above 16 times all that is left; no more operations than before",
+        condition: "fewer operations than before; or no more, and x has a known bound, above 16 times all that is left",
         source: HERBIE,
         apply: equal_terms,
     },
@@ -247,6 +247,7 @@ fn equal_terms(sum: &mut Sum, known: &Known<'_>) -> bool {
         Part::Value(id) => known.range(id).magnitude(),
         _ => f64::INFINITY,
     };
+    let before = sum.terms.len();
     let (mut at, mut gone) = (0, 0.0_f64);
     while at < sum.terms.len() {
         let (minus, part) = sum.terms[at];
@@ -264,7 +265,8 @@ fn equal_terms(sum: &mut Sum, known: &Known<'_>) -> bool {
     let rest = rest.sum::<f64>() + sum.constant.rounded().abs();
     // What has no known bound says nothing of cancellation, and x - x loses nothing.
     let bounded = gone < known.most && rest > 0.0;
-    bounded && gone > LOST * rest && sum.cost() <= sum.freed
+    let shorter = sum.terms.len() < before && sum.cost() < sum.freed;
+    shorter || bounded && gone > LOST * rest && sum.cost() <= sum.freed
 }
 
 fn constants(sum: &mut Sum, _: &Known<'_>) -> bool {
