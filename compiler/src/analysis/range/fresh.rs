@@ -9,13 +9,13 @@ use crate::ir::tree::Place;
 use slowlight_routine::Range;
 
 /// How many values are computed again for one that is asked for.
-const MOST: usize = 150;
+const MOST: usize = 300;
 
 /// How many in all: each arm of each turn asks anew.
-const IN_ALL: u64 = 20_000;
+const IN_ALL: u64 = 60_000;
 
 /// How deep the last of these lie.
-const DEEP: u32 = 24;
+const DEEP: u32 = 48;
 
 /// What was computed again since conditions last changed.
 #[derive(Default)]

@@ -36,8 +36,9 @@ impl Walk<'_> {
         self.heads[at] = Some(self.carried[at].clone());
         self.arm(turns.again, false, &turns.done);
         let ended = self.sets(&turns.done);
-        self.ended[at].clone_from(&ended);
+        let left = self.left_where(turns);
         self.block(&turns.otherwise);
+        self.ended[at] = self.or_used_up(left);
         for (place, range) in ended {
             let both = self.place_range(place).join(range);
             self.write(place, both);
@@ -107,28 +108,6 @@ impl Walk<'_> {
             if (tired || turn >= MANY) && turn < max {
                 self.widen(of, &before);
                 widened = true;
-            }
-        }
-    }
-
-    /// Where a loop's result holds that does not if its turns are used up, the loop has ended
-    /// by itself, and its other results are what it then left.
-    pub(super) fn known_ended(&mut self, (id, holds): (NodeId, bool)) {
-        let Node::Result { of, index } = self.graph.node(id) else {
-            return;
-        };
-        let used_up = self.graph.loops[of.0 as usize].otherwise[index as usize];
-        let used_up = self.graph.constant(used_up).map(Value::truth);
-        if !self.slack.inverts() || used_up != Some(!holds) {
-            return;
-        }
-        for &(place, range) in &self.ended[of.0 as usize] {
-            if let Place::Node(id) = place
-                && self.shared[id.0 as usize].is_none()
-            {
-                let now = &mut self.now[id.0 as usize];
-                self.saved.push((id, *now));
-                *now = now.meet(range);
             }
         }
     }

@@ -12,6 +12,7 @@ mod around;
 mod assuming;
 mod contract;
 mod correlated;
+mod ended;
 mod fresh;
 #[cfg(test)]
 mod hold_tests;
@@ -36,6 +37,7 @@ use crate::analysis::region::Fact;
 use accelerate::Growth;
 use around::Around;
 pub use assuming::assuming;
+use ended::Left;
 use fresh::Fresh;
 use known::known;
 pub(crate) use known::shared;
@@ -137,8 +139,8 @@ pub(crate) struct Walk<'g> {
     growth: Option<Growth>,
     /// Whether turns are walked to narrow bounds that hold.
     narrowing: bool,
-    /// What each loop left where it ended by itself, when it was walked last.
-    ended: Vec<Vec<(Place, Range)>>,
+    /// What each loop's results were by others of them, when it was walked last.
+    ended: Vec<Vec<Left>>,
     /// What is known here.
     around: Around,
     /// What values come to under it.
@@ -211,7 +213,7 @@ impl Walk<'_> {
             (self.conditions).refine(known, &mut self.now, &mut self.saved, fact);
         }
         for k in self.around.since(before) {
-            self.known_ended(self.around.fact(k));
+            self.known_result(self.around.fact(k));
         }
         self.fresh.clear();
         self.doubted(saved, cond, holds);

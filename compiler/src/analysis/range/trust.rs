@@ -109,11 +109,10 @@ impl Walk<'_> {
             }
             Node::Apply(Op::Add, operands) => self.interpolated(id, operands, exact),
             _ if !self.slack.relative => exact,
-            Node::Apply(Op::Div, [part, length]) if self.has_part(length, part) => {
-                let most = self.most_of_length(part);
-                exact.meet(Range::new(-most, most))
-            }
-            Node::Apply(Op::Div, [part, by]) => self.multiple_over_factor((part, by), exact),
+            Node::Apply(Op::Div, [part, by]) => match self.over_length(part, by) {
+                Some(most) => exact.meet(Range::new(-most, most)),
+                None => self.multiple_over_factor((part, by), exact),
+            },
             Node::Apply(Op::Mul, [a, b]) => {
                 let shorter = self.shortened(a, b).or_else(|| self.shortened(b, a));
                 shorter.map_or(exact, |shorter| exact.meet(shorter))
@@ -164,6 +163,22 @@ impl Walk<'_> {
     fn most_of_length(&self, part: NodeId) -> f64 {
         let longest = self.slack.most().sqrt();
         2.0 * (self.read(part).magnitude() / longest).max(1.0)
+    }
+
+    /// The most that a part of a vector over its length is, or a multiple of that: of what is
+    /// cut at 0 by a sign, as in the gradient of a distance.
+    fn over_length(&self, part: NodeId, length: NodeId) -> Option<f64> {
+        if self.has_part(length, part) {
+            return Some(self.most_of_length(part));
+        }
+        let Node::Apply(Op::Mul, [a, b]) = self.graph.node(part) else {
+            return None;
+        };
+        let of = |part, by| {
+            let has = self.has_part(length, part);
+            has.then(|| self.most_of_length(part) * self.read(by).magnitude())
+        };
+        of(a, b).or_else(|| of(b, a))
     }
 
     /// Whether a value is the root of a sum that has the other's square among terms of no

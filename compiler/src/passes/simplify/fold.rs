@@ -60,7 +60,11 @@ pub(crate) fn folded(b: &mut Builder, op: Op, x: NodeId, y: NodeId, span: Span) 
                 let inverse = b.constant(Value::Real(1.0 / r), span);
                 b.apply(Op::Mul, &[x, inverse], span)
             }
-            _ => return None,
+            // Of doubles, as gradients of lengths have them.
+            _ => match (doubled(b, x), doubled(b, y)) {
+                (Some(x), Some(y)) => b.apply(Op::Div, &[x, y], span),
+                _ => return None,
+            },
         },
         Op::IntMod => match right {
             // Two's complement: the low bits are the flooring remainder.
@@ -94,6 +98,14 @@ pub(crate) fn folded(b: &mut Builder, op: Op, x: NodeId, y: NodeId, span: Span) 
         },
         _ => return None,
     })
+}
+
+/// What a real is twice as much as.
+fn doubled(b: &Builder, id: NodeId) -> Option<NodeId> {
+    match b.node(id) {
+        Node::Apply(Op::Add, [x, y]) if x == y => Some(x),
+        _ => None,
+    }
 }
 
 fn select(b: &mut Builder, cond: NodeId, yes: NodeId, no: NodeId, span: Span) -> NodeId {
