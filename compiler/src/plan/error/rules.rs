@@ -8,7 +8,7 @@
 use super::Value;
 use super::form::Form;
 use crate::ir::interval::{interval, product};
-use slowlight_routine::{Op, Range};
+use slowlight_routine::{Format, Op, Range};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// `op` of the machine's arguments less `op` of the exact ones, both exact.
@@ -75,6 +75,13 @@ pub fn inherited(op: Op, x: &Value, y: &Value, same: bool, result: Range) -> For
         // Ints and truth values are what they should be, or a branch flips.
         _ => Form::EXACT,
     }
+}
+
+/// Whether an int may be beyond the machine's, where it is not beyond the native ones: it is
+/// not what it should be then.
+pub(super) fn leaves_ints(format: Format, exact: Range) -> bool {
+    let most = format.most();
+    matches!(format, Format::Int { bits: ..32 }) && !exact.within(-most, most - 1.0)
 }
 
 fn sum(a: Range, b: Range) -> Range {

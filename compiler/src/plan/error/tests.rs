@@ -290,3 +290,27 @@ fn bounds_hold_and_are_near() {
     }
     assert!(middle <= 5.0, "{middle}");
 }
+
+/// 255 times 255 is no int of 16 bits: what is made of it is not what it should be, whatever the
+/// roundings.
+#[test]
+fn what_ints_cannot_hold_proves_nothing() {
+    let text = "image 256 x 256 inks black, white;\ndraw (x, y) = threshold(x * y / 65536, 0.5);\n";
+    let graph = scene::check("ints", text)
+        .lower(&Options::default())
+        .unwrap();
+    let target = in_all_formats().find(|t| t.name == "jack").unwrap();
+    let goal = Goal {
+        name: "ints".to_owned(),
+        mode: default_mode(target, 256, 256).unwrap(),
+        rows: None,
+        plot: true,
+    };
+    let plan = plan_as_written(&graph, target, &goal).unwrap().plan;
+    let shade = plan.graph.shade.unwrap();
+    for (at, proved) in [(100, true), (255, false)] {
+        let made = bounds(&plan, &Tile::of(&plan, (at, at), (at, at)));
+        let decided = !made.undecided.iter().any(|&id| id < shade);
+        assert_eq!(decided, proved, "{at}");
+    }
+}

@@ -1,7 +1,7 @@
 //! Abstract interpretation of a plan over a tile, with error forms.
 
 use super::form::{Form, Source};
-use super::rules::inherited;
+use super::rules::{inherited, leaves_ints};
 use super::{Bound, Bounds, Tile, Value};
 use crate::analysis::range::refine::{Conditions, Known, restore};
 use crate::analysis::range::{Slack, shared};
@@ -293,7 +293,8 @@ impl<'p> Walk<'p> {
                 let [x, y] = self.operands(id, op, [a, b]);
                 let same = a == b && x == y;
                 let range = interval(op, [x.range, y.range], a == b);
-                if !self.same_way(op, &x, &y) {
+                let left = leaves_ints(self.plan.format(id), range);
+                if left || !self.same_way(op, &x, &y) {
                     self.out.undecided.insert(id);
                 }
                 let passed = inherited(op, &x, &y, same, range);
