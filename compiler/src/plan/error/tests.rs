@@ -124,8 +124,13 @@ fn planned(target: &'static Target, inputs: &[(String, f64, f64)], value: &str) 
     let text = format!(
         "image 1 x 1 inks black, white;\n{params}{LIBRARY}draw (x, y) = shown({value}, x, y);\n"
     );
-    let scene = scene::check("kernel", &text);
-    assert!(scene.is_right(), "{value}: {:?}", scene.diagnostics);
+    planned_as(target, &text, 1)
+}
+
+/// The plan of a scene as it is written, `size` pixels each way.
+fn planned_as(target: &'static Target, text: &str, size: u32) -> Plan {
+    let scene = scene::check("kernel", text);
+    assert!(scene.is_right(), "{text}: {:?}", scene.diagnostics);
     let options = Options {
         offset: target.offset,
         ..Options::default()
@@ -133,12 +138,12 @@ fn planned(target: &'static Target, inputs: &[(String, f64, f64)], value: &str) 
     let graph = scene.lower(&options).unwrap();
     let goal = Goal {
         name: "kernel".to_owned(),
-        mode: default_mode(target, 1, 1).unwrap(),
+        mode: default_mode(target, size, size).unwrap(),
         rows: None,
         plot: true,
     };
     let planned = plan_as_written(&graph, target, &goal);
-    planned.unwrap_or_else(|e| panic!("{value}: {e:?}")).plan
+    planned.unwrap_or_else(|e| panic!("{text}: {e:?}")).plan
 }
 
 fn inputs(text: &str) -> Vec<(String, f64, f64)> {
@@ -296,17 +301,8 @@ fn bounds_hold_and_are_near() {
 #[test]
 fn what_ints_cannot_hold_proves_nothing() {
     let text = "image 256 x 256 inks black, white;\ndraw (x, y) = threshold(x * y / 65536, 0.5);\n";
-    let graph = scene::check("ints", text)
-        .lower(&Options::default())
-        .unwrap();
     let target = in_all_formats().find(|t| t.name == "jack").unwrap();
-    let goal = Goal {
-        name: "ints".to_owned(),
-        mode: default_mode(target, 256, 256).unwrap(),
-        rows: None,
-        plot: true,
-    };
-    let plan = plan_as_written(&graph, target, &goal).unwrap().plan;
+    let plan = planned_as(target, text, 256);
     let shade = plan.graph.shade.unwrap();
     for (at, proved) in [(100, true), (255, false)] {
         let made = bounds(&plan, &Tile::of(&plan, (at, at), (at, at)));

@@ -293,8 +293,7 @@ impl<'p> Walk<'p> {
                 let [x, y] = self.operands(id, op, [a, b]);
                 let same = a == b && x == y;
                 let range = interval(op, [x.range, y.range], a == b);
-                let left = leaves_ints(self.plan.format(id), range);
-                if left || !self.same_way(op, &x, &y) {
+                if leaves_ints(self.plan.format(id), range) || !self.same_way(op, &x, &y) {
                     self.out.undecided.insert(id);
                 }
                 let passed = inherited(op, &x, &y, same, range);
